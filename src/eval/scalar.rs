@@ -1,0 +1,224 @@
+//! The reference interpreter: one point at a time, by the book.
+
+use crate::program::{Cond, CondId, ExprId, InputId, InputSet, Node, Program, Real, Value};
+
+/// The result at one point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome<T> {
+    /// The row taken, as an index into [`Program::rows`]; `None` for the default.
+    pub row: Option<usize>,
+    /// The line of that row that applied; `None` where the default gave the value.
+    pub line: Option<usize>,
+    /// The result, one number per component of the output.
+    pub values: Vec<T>,
+    /// The inputs that were fetched, each once.
+    pub fetched: InputSet,
+}
+
+/// A fetched input was needed that the caller did not provide.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NeedsFetch(pub InputId);
+
+/// Evaluates a program at single points.
+///
+/// A point has one value per input, in the order of [`Program::inputs`];
+/// fetched inputs may be absent and are looked at only when needed.
+#[derive(Debug)]
+pub struct Interpreter<'p, T> {
+    program: &'p Program,
+    levels: Vec<u8>,
+    numbers: Vec<T>,
+    fetched: InputSet,
+    point: Vec<Option<Value>>,
+}
+
+impl<'p, T: Real> Interpreter<'p, T> {
+    /// An interpreter of `program`.
+    pub fn new(program: &'p Program) -> Self {
+        let count = program.inputs.len();
+        Self {
+            program,
+            levels: vec![0; count],
+            numbers: vec![T::from_f64(0.0); count],
+            fetched: InputSet::default(),
+            point: Vec::with_capacity(count),
+        }
+    }
+
+    /// Puts the interpreter at a point, with nothing fetched yet.
+    ///
+    /// # Errors
+    /// With the first input that is neither given nor fetched.
+    pub fn place(&mut self, point: &[Option<Value>]) -> Result<(), NeedsFetch> {
+        self.point.clear();
+        self.point.extend_from_slice(point);
+        self.fetched = InputSet::default();
+        for (id, input) in self.program.input_ids() {
+            if input.fetched.is_none() {
+                self.load(id)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Evaluates the program at a point.
+    ///
+    /// # Errors
+    /// With the first input that is needed but absent.
+    pub fn evaluate(&mut self, point: &[Option<Value>]) -> Result<Outcome<T>, NeedsFetch> {
+        self.place(point)?;
+        for (index, row) in self.program.rows.iter().enumerate() {
+            if !self.holds(row.guard)? {
+                continue;
+            }
+            for (number, line) in row.lines.iter().enumerate() {
+                if self.holds(line.condition)? {
+                    return self.outcome(Some(index), Some(number), &line.values);
+                }
+            }
+            return self.outcome(Some(index), None, &self.program.default);
+        }
+        self.outcome(None, None, &self.program.default)
+    }
+
+    fn outcome(
+        &mut self,
+        row: Option<usize>,
+        line: Option<usize>,
+        values: &[ExprId],
+    ) -> Result<Outcome<T>, NeedsFetch> {
+        let values = values.iter().map(|value| self.number(*value)).collect::<Result<_, _>>()?;
+        Ok(Outcome { row, line, values, fetched: self.fetched })
+    }
+
+    fn load(&mut self, input: InputId) -> Result<(), NeedsFetch> {
+        match self.point.get(input.index()).copied().flatten() {
+            Some(Value::Level(level)) => self.levels[input.index()] = level,
+            Some(Value::Number(number)) => self.numbers[input.index()] = T::from_f64(number),
+            None => return Err(NeedsFetch(input)),
+        }
+        Ok(())
+    }
+
+    /// Makes sure a fetched input is there, fetching it at most once.
+    fn need(&mut self, input: InputId) -> Result<(), NeedsFetch> {
+        if self.program.fetched.contains(input) && !self.fetched.contains(input) {
+            self.load(input)?;
+            self.fetched = self.fetched.or(InputSet::one(input));
+        }
+        Ok(())
+    }
+
+    /// Whether a condition holds at the current point.
+    ///
+    /// # Errors
+    /// With the first input that is needed but absent.
+    pub fn holds(&mut self, condition: CondId) -> Result<bool, NeedsFetch> {
+        let program = self.program;
+        match program.pool.cond(condition) {
+            Cond::Const(value) => Ok(*value),
+            Cond::Level(input, levels) => {
+                self.need(*input)?;
+                Ok(levels.contains(self.levels[input.index()]))
+            }
+            Cond::Compare(op, a, b) => {
+                let (a, b) = (self.number(*a)?, self.number(*b)?);
+                Ok(op.holds(a, b))
+            }
+            Cond::Not(a) => Ok(!self.holds(*a)?),
+            Cond::And(parts) => {
+                for part in parts {
+                    if !self.holds(*part)? {
+                        return Ok(false);
+                    }
+                }
+                Ok(true)
+            }
+            Cond::Or(parts) => {
+                for part in parts {
+                    if self.holds(*part)? {
+                        return Ok(true);
+                    }
+                }
+                Ok(false)
+            }
+            Cond::If(condition, then, other) => {
+                if self.holds(*condition)? {
+                    self.holds(*then)
+                } else {
+                    self.holds(*other)
+                }
+            }
+        }
+    }
+
+    /// The value of an expression at the current point.
+    ///
+    /// # Errors
+    /// With the first input that is needed but absent.
+    pub fn number(&mut self, expr: ExprId) -> Result<T, NeedsFetch> {
+        match self.program.pool.node(expr) {
+            Node::Const(number) => Ok(T::from_f64(number.get())),
+            Node::Input(input) => {
+                self.need(input)?;
+                Ok(self.numbers[input.index()])
+            }
+            // Occurs in the result map of a symmetry only, which is never evaluated at a point.
+            Node::Result => Ok(T::from_f64(f64::NAN)),
+            Node::Unary(op, a) => Ok(T::unary(op, self.number(a)?)),
+            Node::Binary(op, a, b) => Ok(T::binary(op, self.number(a)?, self.number(b)?)),
+            Node::Ternary(op, a, b, c) => Ok(T::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?)),
+            Node::Select(condition, then, other) => {
+                if self.holds(condition)? {
+                    self.number(then)
+                } else {
+                    self.number(other)
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Source;
+    use crate::table::Table;
+
+    fn program(text: &str) -> Program {
+        Table::parse(Source::new("test.ron", text))
+            .and_then(|table| Program::check(&table))
+            .unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    #[test]
+    fn fetched_inputs_are_fetched_when_needed_and_once() {
+        let program = program(
+            r#"Table(language: 1, name: "t", hit_policy: First,
+                inputs: {
+                    "s": Bool(),
+                    "f": Levels(values: {"lo": 0, "hi": 1}, fetched: (cost: 1)),
+                    "g": Range(from: 0, to: 1, fetched: (cost: 1)),
+                },
+                output: Number(),
+                cases: [
+                    Case(id: 1, when: "s", value: "0.5"),
+                    Case(id: 2, when: "f == hi && g > 0.5", value: "g * 2"),
+                    Case(id: 3, when: "f == hi", value: "g"),
+                ],
+                default: 0)"#,
+        );
+        let mut interpreter = Interpreter::<f32>::new(&program);
+        let run = |i: &mut Interpreter<'_, f32>, point: [Option<Value>; 3]| i.evaluate(&point);
+        let bool_ = |b: bool| Some(Value::Level(u8::from(b)));
+
+        let first = run(&mut interpreter, [bool_(true), None, None]).expect("nothing fetched");
+        assert_eq!((first.row, first.fetched.iter().count()), (Some(0), 0));
+        assert_eq!(run(&mut interpreter, [bool_(false), None, None]), Err(NeedsFetch(InputId::new(1))));
+        let none = run(&mut interpreter, [bool_(false), Some(Value::Level(0)), None]).expect("`g` is not needed");
+        assert_eq!((none.row, none.fetched.iter().count()), (None, 1));
+        let third = run(&mut interpreter, [bool_(false), Some(Value::Level(1)), Some(Value::Number(0.25))]);
+        let third = third.expect("all given");
+        assert_eq!((third.row, third.values[0], third.fetched.iter().count()), (Some(2), 0.25, 2));
+    }
+}

@@ -1,0 +1,6 @@
+//! Umbrage compiles case tables into shaders that are proved equal to the table.
+
+pub mod diag;
+pub mod eval;
+pub mod program;
+pub mod table;

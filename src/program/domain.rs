@@ -1,0 +1,185 @@
+//! Inputs and the values they can take.
+
+use super::InputId;
+use crate::diag::Span;
+
+/// Most levels of one discrete input.
+pub const MAX_LEVELS: usize = 64;
+
+/// An input of a program.
+#[derive(Debug, Clone)]
+pub struct Input {
+    /// Its name in the table.
+    pub name: String,
+    /// Its name in generated code.
+    pub ident: String,
+    /// The values it can take.
+    pub domain: Domain,
+    /// What it is.
+    pub doc: String,
+    /// Cost in texture reads, for inputs that the host produces on demand.
+    pub fetched: Option<f64>,
+    /// The value that examples and `explain` assume when they leave the input out.
+    pub default: Option<Value>,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// The values an input can take.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Domain {
+    /// One of finitely many levels.
+    Discrete(Levels),
+    /// A real number of a closed interval.
+    Continuous {
+        /// Smallest value.
+        lo: f64,
+        /// Largest value.
+        hi: f64,
+        /// Unit, for messages and comments; may be empty.
+        unit: String,
+    },
+}
+
+/// The levels of a discrete input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Levels {
+    /// Their names, in the order declared; a level's index is its place in this list.
+    pub names: Vec<String>,
+    /// The numbers that stand for them where levels are carried as `f32`.
+    pub codes: Vec<f64>,
+    /// What kind of input they belong to.
+    pub kind: LevelKind,
+}
+
+/// What kind of discrete input it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LevelKind {
+    /// Named levels.
+    Named,
+    /// `false`, `true`.
+    Bool,
+    /// Consecutive integers.
+    Int,
+}
+
+impl Levels {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Bits that hold the index of a level.
+    pub fn bits(&self) -> u32 {
+        usize::BITS - (self.count() - 1).leading_zeros()
+    }
+
+    /// The level with a name, or with a code written as a number.
+    pub fn find(&self, word: &str) -> Option<u8> {
+        let by_name = self.names.iter().position(|name| name == word);
+        let by_code = || {
+            let number: f64 = word.parse().ok()?;
+            self.codes.iter().position(|code| *code == number)
+        };
+        by_name.or_else(by_code).map(|index| index as u8)
+    }
+
+    /// The levels in words, for messages.
+    pub fn describe(&self) -> String {
+        let named = |(name, code): (&String, &f64)| match self.kind {
+            LevelKind::Named => format!("{name} ({code})"),
+            LevelKind::Bool | LevelKind::Int => name.clone(),
+        };
+        self.names.iter().zip(&self.codes).map(named).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A value of an input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// The index of a level.
+    Level(u8),
+    /// A number.
+    Number(f64),
+}
+
+/// The combinations of all discrete inputs that are not fetched, in a fixed order:
+/// the last input varies fastest.
+#[derive(Debug, Clone)]
+pub struct StateSpace {
+    digits: Vec<(InputId, usize)>,
+    count: usize,
+}
+
+impl StateSpace {
+    /// Most states that are enumerated.
+    pub const MAX: u64 = 1 << 22;
+
+    /// The states of these inputs, or their number if there are too many.
+    pub(super) fn new(inputs: &[Input]) -> Result<Self, f64> {
+        let mut digits = Vec::new();
+        let mut product = 1.0_f64;
+        for (index, input) in inputs.iter().enumerate() {
+            if let (Domain::Discrete(levels), None) = (&input.domain, input.fetched) {
+                digits.push((InputId::new(index), levels.count()));
+                product *= levels.count() as f64;
+            }
+        }
+        if product > Self::MAX as f64 {
+            return Err(product);
+        }
+        Ok(Self { digits, count: product as usize })
+    }
+
+    /// How many states there are; at least one.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The inputs that make up a state, with their numbers of levels.
+    pub fn digits(&self) -> &[(InputId, usize)] {
+        &self.digits
+    }
+
+    /// Writes the levels of state number `index` into `levels`, indexed by input.
+    pub fn write(&self, index: usize, levels: &mut [u8]) {
+        let mut rest = index;
+        for (input, count) in self.digits.iter().rev() {
+            levels[input.index()] = (rest % count) as u8;
+            rest /= count;
+        }
+    }
+
+    /// The number of the state with these levels, indexed by input.
+    pub fn index(&self, levels: impl Fn(InputId) -> u8) -> usize {
+        self.digits.iter().fold(0, |index, (input, count)| index * count + usize::from(levels(*input)))
+    }
+}
+
+impl Input {
+    /// Reads a value of this input: a level by name or code, or a number in the range.
+    ///
+    /// # Errors
+    /// With a message that says what is expected.
+    pub fn parse(&self, word: &str) -> Result<Value, String> {
+        match &self.domain {
+            Domain::Discrete(levels) => levels.find(word).map(Value::Level).ok_or_else(|| {
+                format!("`{word}` is not a level of `{}`; the levels are: {}", self.name, levels.describe())
+            }),
+            Domain::Continuous { lo, hi, .. } => match word.parse::<f64>() {
+                Ok(number) if (*lo..=*hi).contains(&number) => Ok(Value::Number(number)),
+                Ok(number) => Err(format!("{number} is not in the range {lo} to {hi} of `{}`", self.name)),
+                Err(_) => Err(format!("`{word}` is not a number; `{}` ranges from {lo} to {hi}", self.name)),
+            },
+        }
+    }
+
+    /// A value in words.
+    pub fn show(&self, value: Value) -> String {
+        match (value, &self.domain) {
+            (Value::Level(level), Domain::Discrete(levels)) => levels.names[usize::from(level)].clone(),
+            (Value::Level(level), _) => level.to_string(),
+            (Value::Number(number), _) => number.to_string(),
+        }
+    }
+}

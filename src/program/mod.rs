@@ -1,0 +1,239 @@
+//! The typed program that a table means. This is the one definition of
+//! correctness: interpreters, plans and emitters are all judged against it.
+//!
+//! A [`Program`] is total and pure. Its meaning, in full:
+//!
+//! 1. Rows are tried in order. The first whose guard holds is *taken*.
+//! 2. Of its lines the first whose condition holds gives the result; if none
+//!    does, or if no row is taken, the default gives it.
+//! 3. Conditions are tested left to right and only as far as needed; of a
+//!    selection only the chosen side is evaluated. A fetched input is produced
+//!    by the host the first time it is needed, and never again.
+//! 4. Each operation means what WGSL's means. Where WGSL leaves a choice the
+//!    `f32` result is the exact one rounded to nearest.
+//!
+//! Assumptions and symmetries are carried along but never change the meaning.
+
+mod domain;
+mod lower;
+mod ops;
+mod pool;
+pub mod print;
+mod terms;
+
+use std::sync::Arc;
+
+use crate::diag::{Failure, Source, Span};
+use crate::table::{Erratum, HitPolicy, Table};
+
+pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
+pub use ops::Real;
+pub use pool::{
+    BINARY_FUNCTIONS, BinaryOp, Comparison, Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool,
+    TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp,
+};
+pub use terms::LevelTerm;
+
+/// Number of an input, in the order declared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct InputId(u8);
+
+impl InputId {
+    /// The input with this place in the declarations.
+    pub fn new(index: usize) -> Self {
+        debug_assert!(index < InputSet::CAPACITY);
+        Self(index as u8)
+    }
+
+    /// Its place in the declarations.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// A checked table.
+#[derive(Debug, Clone)]
+pub struct Program {
+    /// The file it came from.
+    pub source: Arc<Source>,
+    /// Name, and prefix of everything generated.
+    pub name: String,
+    /// What the table is.
+    pub title: String,
+    /// Where the technique was published.
+    pub origin: String,
+    /// What it means that several rows match.
+    pub hit_policy: HitPolicy,
+    /// Where the hit policy is declared.
+    pub hit_policy_span: Span,
+    /// The inputs.
+    pub inputs: Vec<Input>,
+    /// The inputs that are fetched.
+    pub fetched: InputSet,
+    /// The combinations of discrete inputs.
+    pub states: StateSpace,
+    /// Owns all expressions and conditions below.
+    pub pool: Pool,
+    /// The rows, in the order written.
+    pub rows: Vec<Row>,
+    /// The result where no row, or no line of the taken row, applies.
+    pub default: Vec<ExprId>,
+    /// What the table returns.
+    pub output: Output,
+    /// Conditions that hold on every state that occurs.
+    pub assumptions: Vec<Assumption>,
+    /// Declared symmetries.
+    pub symmetries: Vec<Symmetry>,
+    /// Inputs with expected results.
+    pub examples: Vec<Example>,
+}
+
+/// What a table returns: one number per component.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    /// One number.
+    Number,
+    /// Two to four numbers.
+    Vector(usize),
+    /// The index of a level.
+    Enumeration(Levels),
+    /// A length, and that many indices of levels followed by zeros up to `max`.
+    List {
+        /// The levels that items refer to.
+        levels: Levels,
+        /// Most items.
+        max: usize,
+    },
+}
+
+impl Output {
+    /// How many components there are.
+    pub fn components(&self) -> usize {
+        match self {
+            Output::Number | Output::Enumeration(_) => 1,
+            Output::Vector(size) => *size,
+            Output::List { max, .. } => max + 1,
+        }
+    }
+
+    /// Whether components are whole numbers rather than reals.
+    pub fn is_integer(&self) -> bool {
+        matches!(self, Output::Enumeration(_) | Output::List { .. })
+    }
+}
+
+/// A row: one case of the technique.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// The number of the case.
+    pub id: u32,
+    /// Where the row stands.
+    pub span: Span,
+    /// When it is taken.
+    pub guard: CondId,
+    /// Where the guard stands.
+    pub guard_span: Span,
+    /// Its value.
+    pub lines: Vec<Line>,
+    /// Section of the source that defines it.
+    pub section: String,
+    /// One line on what it is.
+    pub doc: String,
+    /// Misprints of the source that were mended here.
+    pub errata: Vec<Erratum>,
+}
+
+/// A line of a row's value.
+#[derive(Debug, Clone)]
+pub struct Line {
+    /// When it applies.
+    pub condition: CondId,
+    /// The result, one expression per component.
+    pub values: Vec<ExprId>,
+    /// Where the value stands.
+    pub span: Span,
+}
+
+/// A condition that holds on every state that occurs.
+#[derive(Debug, Clone)]
+pub struct Assumption {
+    /// Its name.
+    pub name: String,
+    /// The condition.
+    pub condition: CondId,
+    /// Why it holds.
+    pub doc: String,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A map of the inputs and of the result.
+#[derive(Debug, Clone)]
+pub struct Symmetry {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub doc: String,
+    /// Discrete inputs that change, with their new levels.
+    pub levels: Vec<(InputId, LevelTerm)>,
+    /// Continuous inputs that change, with their new values.
+    pub numbers: Vec<(InputId, ExprId)>,
+    /// The result in terms of [`Node::Result`], if it changes.
+    pub result: Option<ExprId>,
+    /// Where it is declared.
+    pub span: Span,
+}
+
+/// Inputs with the expected result.
+#[derive(Debug, Clone)]
+pub struct Example {
+    /// The row it belongs to, as an index into [`Program::rows`].
+    pub row: usize,
+    /// Where it stands.
+    pub span: Span,
+    /// One value per input; `None` for fetched inputs that must not be needed.
+    pub inputs: Vec<Option<Value>>,
+    /// The expected components.
+    pub expected: Vec<f64>,
+}
+
+impl Program {
+    /// Reads and checks a table file.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is not a meaningful table.
+    pub fn read(path: impl AsRef<std::path::Path>) -> Result<Self, Failure> {
+        Self::check(&Table::read(path)?)
+    }
+
+    /// Checks names, types, domains and references of a table.
+    ///
+    /// # Errors
+    /// With every mistake found, each at its place.
+    pub fn check(table: &Table) -> Result<Self, Failure> {
+        lower::program(table)
+    }
+
+    /// The input with a name.
+    pub fn input(&self, name: &str) -> Option<InputId> {
+        self.inputs.iter().position(|i| i.name == name).map(InputId::new)
+    }
+
+    /// All inputs with their ids.
+    pub fn input_ids(&self) -> impl Iterator<Item = (InputId, &Input)> {
+        self.inputs.iter().enumerate().map(|(i, input)| (InputId::new(i), input))
+    }
+
+    /// The levels of a discrete input.
+    pub fn levels(&self, input: InputId) -> Option<&Levels> {
+        match &self.inputs[input.index()].domain {
+            Domain::Discrete(levels) => Some(levels),
+            Domain::Continuous { .. } => None,
+        }
+    }
+
+    /// The line of the source that a place is on, counted from 1.
+    pub fn line(&self, span: Span) -> usize {
+        self.source.line(span.start)
+    }
+}

@@ -1,0 +1,524 @@
+//! Expressions and conditions, hash-consed: equal terms have equal ids.
+//!
+//! Everything is scalar. Vectors are expanded into components when a table is
+//! lowered, so that every later stage handles numbers and conditions only.
+//! Constructors fold constants (in `f64`, as WGSL does for constant
+//! expressions) and nothing else: no rewriting that could change rounding.
+
+use std::collections::HashMap;
+
+use super::InputId;
+
+/// An expression in a [`Pool`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ExprId(u32);
+
+/// A condition in a [`Pool`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct CondId(u32);
+
+/// A finite `f64` constant that can be compared and hashed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Number(u64);
+
+impl Number {
+    /// Wraps a number.
+    pub fn new(value: f64) -> Self {
+        Self(value.to_bits())
+    }
+
+    /// The number.
+    pub fn get(self) -> f64 {
+        f64::from_bits(self.0)
+    }
+}
+
+/// A numeric expression. Each operation means what WGSL's operation of the same name means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A constant.
+    Const(Number),
+    /// A continuous input.
+    Input(InputId),
+    /// The result of the table, in the result map of a symmetry only.
+    Result,
+    /// An operation on one number.
+    Unary(UnaryOp, ExprId),
+    /// An operation on two numbers.
+    Binary(BinaryOp, ExprId, ExprId),
+    /// An operation on three numbers.
+    Ternary(TernaryOp, ExprId, ExprId, ExprId),
+    /// The first value if the condition holds, else the second; the other one is not evaluated.
+    Select(CondId, ExprId, ExprId),
+}
+
+/// Operations on one number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)]
+pub enum UnaryOp {
+    Negate,
+    Abs,
+    Acos,
+    Acosh,
+    Asin,
+    Asinh,
+    Atan,
+    Atanh,
+    Ceil,
+    Cos,
+    Cosh,
+    Degrees,
+    Exp,
+    Exp2,
+    Floor,
+    Fract,
+    InverseSqrt,
+    Log,
+    Log2,
+    Radians,
+    Round,
+    Saturate,
+    Sign,
+    Sin,
+    Sinh,
+    Sqrt,
+    Tan,
+    Tanh,
+    Trunc,
+}
+
+/// Operations on two numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)]
+pub enum BinaryOp {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+    Atan2,
+    Max,
+    Min,
+    Pow,
+    Step,
+}
+
+/// Operations on three numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)]
+pub enum TernaryOp {
+    Clamp,
+    Fma,
+    Mix,
+    Smoothstep,
+}
+
+/// WGSL names of the operations that are called as functions.
+pub const UNARY_FUNCTIONS: [(&str, UnaryOp); 28] = [
+    ("abs", UnaryOp::Abs),
+    ("acos", UnaryOp::Acos),
+    ("acosh", UnaryOp::Acosh),
+    ("asin", UnaryOp::Asin),
+    ("asinh", UnaryOp::Asinh),
+    ("atan", UnaryOp::Atan),
+    ("atanh", UnaryOp::Atanh),
+    ("ceil", UnaryOp::Ceil),
+    ("cos", UnaryOp::Cos),
+    ("cosh", UnaryOp::Cosh),
+    ("degrees", UnaryOp::Degrees),
+    ("exp", UnaryOp::Exp),
+    ("exp2", UnaryOp::Exp2),
+    ("floor", UnaryOp::Floor),
+    ("fract", UnaryOp::Fract),
+    ("inverseSqrt", UnaryOp::InverseSqrt),
+    ("log", UnaryOp::Log),
+    ("log2", UnaryOp::Log2),
+    ("radians", UnaryOp::Radians),
+    ("round", UnaryOp::Round),
+    ("saturate", UnaryOp::Saturate),
+    ("sign", UnaryOp::Sign),
+    ("sin", UnaryOp::Sin),
+    ("sinh", UnaryOp::Sinh),
+    ("sqrt", UnaryOp::Sqrt),
+    ("tan", UnaryOp::Tan),
+    ("tanh", UnaryOp::Tanh),
+    ("trunc", UnaryOp::Trunc),
+];
+
+/// WGSL names of the two-operand operations that are called as functions.
+pub const BINARY_FUNCTIONS: [(&str, BinaryOp); 5] = [
+    ("atan2", BinaryOp::Atan2),
+    ("max", BinaryOp::Max),
+    ("min", BinaryOp::Min),
+    ("pow", BinaryOp::Pow),
+    ("step", BinaryOp::Step),
+];
+
+/// WGSL names of the three-operand operations.
+pub const TERNARY_FUNCTIONS: [(&str, TernaryOp); 4] = [
+    ("clamp", TernaryOp::Clamp),
+    ("fma", TernaryOp::Fma),
+    ("mix", TernaryOp::Mix),
+    ("smoothstep", TernaryOp::Smoothstep),
+];
+
+/// A set of levels of one input, as a bit mask.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct LevelSet(pub u64);
+
+impl LevelSet {
+    /// The set of the first `count` levels.
+    pub fn all(count: usize) -> Self {
+        Self(if count >= 64 { u64::MAX } else { (1 << count) - 1 })
+    }
+
+    /// The set of one level.
+    pub fn one(level: u8) -> Self {
+        Self(1 << level)
+    }
+
+    /// Whether `level` is in the set.
+    pub fn contains(self, level: u8) -> bool {
+        self.0 >> level & 1 == 1
+    }
+
+    /// The levels, ascending.
+    pub fn iter(self) -> impl Iterator<Item = u8> {
+        (0..64).filter(move |level| self.contains(*level))
+    }
+}
+
+/// Comparison of two numbers. `a > b` is stored as `b < a`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Comparison {
+    Less,
+    LessEqual,
+    Equal,
+}
+
+/// A condition. Operands are tested from left to right, and only as far as needed.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Cond {
+    /// A constant.
+    Const(bool),
+    /// The discrete input has one of these levels.
+    Level(InputId, LevelSet),
+    /// A comparison of numbers.
+    Compare(Comparison, ExprId, ExprId),
+    /// Negation.
+    Not(CondId),
+    /// All hold; at least two.
+    And(Vec<CondId>),
+    /// Any holds; at least two.
+    Or(Vec<CondId>),
+    /// The second if the first holds, else the third.
+    If(CondId, CondId, CondId),
+}
+
+/// A set of inputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct InputSet(u128);
+
+impl InputSet {
+    /// Most inputs a table may have.
+    pub const CAPACITY: usize = 128;
+
+    /// The set of one input.
+    pub fn one(input: InputId) -> Self {
+        Self(1 << input.index())
+    }
+
+    /// Whether `input` is in the set.
+    pub fn contains(self, input: InputId) -> bool {
+        self.0 >> input.index() & 1 == 1
+    }
+
+    /// Inputs in both.
+    pub fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// Inputs in either.
+    pub fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Inputs in `self` but not in `other`.
+    pub fn minus(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// The inputs, ascending.
+    pub fn iter(self) -> impl Iterator<Item = InputId> {
+        (0..Self::CAPACITY).map(InputId::new).filter(move |i| self.contains(*i))
+    }
+}
+
+/// What is known of a term without looking inside.
+#[derive(Debug, Clone, Copy)]
+pub struct Facts {
+    /// Longest path to a leaf.
+    pub depth: u32,
+    /// Number of nodes when written out as a tree; saturates.
+    pub size: u32,
+    /// Every input that is mentioned.
+    pub inputs: InputSet,
+}
+
+impl Facts {
+    fn leaf(inputs: InputSet) -> Self {
+        Self { depth: 1, size: 1, inputs }
+    }
+
+    fn join(parts: impl IntoIterator<Item = Facts>) -> Self {
+        parts.into_iter().fold(Self::leaf(InputSet::default()), |all, part| Self {
+            depth: all.depth.max(part.depth.saturating_add(1)),
+            size: all.size.saturating_add(part.size),
+            inputs: all.inputs.or(part.inputs),
+        })
+    }
+}
+
+/// Owns expressions and conditions.
+#[derive(Debug, Clone, Default)]
+pub struct Pool {
+    exprs: Vec<(Node, Facts)>,
+    conds: Vec<(Cond, Facts)>,
+    expr_index: HashMap<Node, ExprId>,
+    cond_index: HashMap<Cond, CondId>,
+    labels: HashMap<ExprId, String>,
+}
+
+impl Pool {
+    /// What an expression is.
+    pub fn node(&self, id: ExprId) -> Node {
+        self.exprs[id.0 as usize].0
+    }
+
+    /// What a condition is.
+    pub fn cond(&self, id: CondId) -> &Cond {
+        &self.conds[id.0 as usize].0
+    }
+
+    /// Depth, size and inputs of an expression.
+    pub fn expr_facts(&self, id: ExprId) -> Facts {
+        self.exprs[id.0 as usize].1
+    }
+
+    /// Depth, size and inputs of a condition.
+    pub fn cond_facts(&self, id: CondId) -> Facts {
+        self.conds[id.0 as usize].1
+    }
+
+    /// The name a table gives to an expression, if any.
+    pub fn label(&self, id: ExprId) -> Option<&str> {
+        self.labels.get(&id).map(String::as_str)
+    }
+
+    /// Names an expression; the first name stays.
+    pub fn set_label(&mut self, id: ExprId, label: &str) {
+        if !matches!(self.node(id), Node::Const(_) | Node::Input(_) | Node::Result) {
+            self.labels.entry(id).or_insert_with(|| label.to_owned());
+        }
+    }
+
+    /// The constant an expression is, if it is one.
+    pub fn constant(&self, id: ExprId) -> Option<f64> {
+        match self.node(id) {
+            Node::Const(number) => Some(number.get()),
+            _ => None,
+        }
+    }
+
+    /// The truth value a condition is, if it is constant.
+    pub fn truth(&self, id: CondId) -> Option<bool> {
+        match self.cond(id) {
+            Cond::Const(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    fn intern(&mut self, node: Node) -> ExprId {
+        if let Some(id) = self.expr_index.get(&node) {
+            return *id;
+        }
+        let facts = match node {
+            Node::Const(_) | Node::Result => Facts::leaf(InputSet::default()),
+            Node::Input(input) => Facts::leaf(InputSet::one(input)),
+            Node::Unary(_, a) => Facts::join([self.expr_facts(a)]),
+            Node::Binary(_, a, b) => Facts::join([self.expr_facts(a), self.expr_facts(b)]),
+            Node::Ternary(_, a, b, c) => Facts::join([self.expr_facts(a), self.expr_facts(b), self.expr_facts(c)]),
+            Node::Select(c, a, b) => Facts::join([self.cond_facts(c), self.expr_facts(a), self.expr_facts(b)]),
+        };
+        let id = ExprId(self.exprs.len() as u32);
+        self.exprs.push((node, facts));
+        self.expr_index.insert(node, id);
+        id
+    }
+
+    fn intern_cond(&mut self, cond: Cond) -> CondId {
+        if let Some(id) = self.cond_index.get(&cond) {
+            return *id;
+        }
+        let facts = match &cond {
+            Cond::Const(_) => Facts::leaf(InputSet::default()),
+            Cond::Level(input, _) => Facts::leaf(InputSet::one(*input)),
+            Cond::Compare(_, a, b) => Facts::join([self.expr_facts(*a), self.expr_facts(*b)]),
+            Cond::Not(a) => Facts::join([self.cond_facts(*a)]),
+            Cond::And(list) | Cond::Or(list) => Facts::join(list.iter().map(|c| self.cond_facts(*c))),
+            Cond::If(c, a, b) => Facts::join([*c, *a, *b].map(|c| self.cond_facts(c))),
+        };
+        let id = CondId(self.conds.len() as u32);
+        self.conds.push((cond.clone(), facts));
+        self.cond_index.insert(cond, id);
+        id
+    }
+
+    /// A constant.
+    pub fn number(&mut self, value: f64) -> ExprId {
+        // One zero: WGSL lets an implementation ignore its sign.
+        self.intern(Node::Const(Number::new(if value == 0.0 { 0.0 } else { value })))
+    }
+
+    /// A continuous input.
+    pub fn input(&mut self, input: InputId) -> ExprId {
+        self.intern(Node::Input(input))
+    }
+
+    /// The result of the table, for the result map of a symmetry.
+    pub fn result(&mut self) -> ExprId {
+        self.intern(Node::Result)
+    }
+
+    /// An operation on one number.
+    pub fn unary(&mut self, op: UnaryOp, a: ExprId) -> ExprId {
+        match self.constant(a) {
+            Some(a) => self.number(op.apply(a)),
+            None => self.intern(Node::Unary(op, a)),
+        }
+    }
+
+    /// An operation on two numbers.
+    pub fn binary(&mut self, op: BinaryOp, a: ExprId, b: ExprId) -> ExprId {
+        match (self.constant(a), self.constant(b)) {
+            (Some(a), Some(b)) => self.number(op.apply(a, b)),
+            _ => self.intern(Node::Binary(op, a, b)),
+        }
+    }
+
+    /// An operation on three numbers.
+    pub fn ternary(&mut self, op: TernaryOp, a: ExprId, b: ExprId, c: ExprId) -> ExprId {
+        match (self.constant(a), self.constant(b), self.constant(c)) {
+            (Some(a), Some(b), Some(c)) => self.number(op.apply(a, b, c)),
+            _ => self.intern(Node::Ternary(op, a, b, c)),
+        }
+    }
+
+    /// A choice between two numbers.
+    pub fn select(&mut self, condition: CondId, then: ExprId, other: ExprId) -> ExprId {
+        match self.truth(condition) {
+            Some(true) => then,
+            Some(false) => other,
+            None if then == other => then,
+            None => self.intern(Node::Select(condition, then, other)),
+        }
+    }
+
+    /// A constant condition.
+    pub fn always(&mut self, value: bool) -> CondId {
+        self.intern_cond(Cond::Const(value))
+    }
+
+    /// The input, which has `count` levels, has one of `levels`.
+    pub fn level(&mut self, input: InputId, levels: LevelSet, count: usize) -> CondId {
+        let all = LevelSet::all(count);
+        match levels.0 & all.0 {
+            0 => self.always(false),
+            some if some == all.0 => self.always(true),
+            some => self.intern_cond(Cond::Level(input, LevelSet(some))),
+        }
+    }
+
+    /// A comparison of numbers.
+    pub fn compare(&mut self, op: Comparison, a: ExprId, b: ExprId) -> CondId {
+        match (self.constant(a), self.constant(b)) {
+            (Some(a), Some(b)) => self.always(op.holds(a, b)),
+            _ => self.intern_cond(Cond::Compare(op, a, b)),
+        }
+    }
+
+    /// Negation.
+    pub fn not(&mut self, a: CondId) -> CondId {
+        match self.cond(a) {
+            Cond::Const(value) => {
+                let value = !value;
+                self.always(value)
+            }
+            Cond::Not(inner) => *inner,
+            _ => self.intern_cond(Cond::Not(a)),
+        }
+    }
+
+    /// All of the conditions.
+    pub fn and(&mut self, items: impl IntoIterator<Item = CondId>) -> CondId {
+        self.junction(items, true)
+    }
+
+    /// Any of the conditions.
+    pub fn or(&mut self, items: impl IntoIterator<Item = CondId>) -> CondId {
+        self.junction(items, false)
+    }
+
+    /// Flattens, drops neutral operands and repetitions, stops at a deciding one.
+    fn junction(&mut self, items: impl IntoIterator<Item = CondId>, is_and: bool) -> CondId {
+        let mut flat: Vec<CondId> = Vec::new();
+        for item in items {
+            let parts = match self.cond(item) {
+                Cond::And(parts) if is_and => parts.clone(),
+                Cond::Or(parts) if !is_and => parts.clone(),
+                _ => vec![item],
+            };
+            for part in parts {
+                match self.truth(part) {
+                    Some(value) if value == is_and => {}
+                    // What follows is never tested; what stands before still is.
+                    Some(_) if flat.is_empty() => return part,
+                    Some(_) => return self.finish_junction(flat, Some(part), is_and),
+                    None if flat.contains(&part) => {}
+                    None => flat.push(part),
+                }
+            }
+        }
+        self.finish_junction(flat, None, is_and)
+    }
+
+    fn finish_junction(&mut self, flat: Vec<CondId>, decided: Option<CondId>, is_and: bool) -> CondId {
+        match (decided, flat.as_slice()) {
+            // Conditions have no effects, so a decided junction is its constant.
+            (Some(constant), _) => constant,
+            (None, []) => self.always(is_and),
+            (None, [one]) => *one,
+            (None, _) => self.intern_cond(if is_and { Cond::And(flat) } else { Cond::Or(flat) }),
+        }
+    }
+
+    /// A choice between two conditions.
+    pub fn cond_if(&mut self, condition: CondId, then: CondId, other: CondId) -> CondId {
+        match (self.truth(condition), self.truth(then), self.truth(other)) {
+            (Some(true), ..) => then,
+            (Some(false), ..) => other,
+            _ if then == other => then,
+            (None, Some(true), Some(false)) => condition,
+            (None, Some(false), Some(true)) => self.not(condition),
+            (None, None, Some(false)) => self.and([condition, then]),
+            (None, Some(true), None) => self.or([condition, other]),
+            _ => self.intern_cond(Cond::If(condition, then, other)),
+        }
+    }
+}

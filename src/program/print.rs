@@ -1,0 +1,160 @@
+//! Conditions and expressions in the notation of the table language.
+
+use std::fmt::Write;
+
+use super::pool::{BINARY_FUNCTIONS, TERNARY_FUNCTIONS, UNARY_FUNCTIONS};
+use super::{BinaryOp, Comparison, Cond, CondId, Domain, ExprId, Input, LevelKind, Node, Pool, UnaryOp};
+
+/// Prints terms of one pool.
+#[derive(Clone, Copy)]
+pub struct Printer<'a> {
+    /// Where the terms live.
+    pub pool: &'a Pool,
+    /// What the inputs are called.
+    pub inputs: &'a [Input],
+}
+
+impl Printer<'_> {
+    /// An expression.
+    pub fn expr(&self, id: ExprId) -> String {
+        let mut out = String::new();
+        self.write_expr(&mut out, id, 0);
+        out
+    }
+
+    /// A condition.
+    pub fn cond(&self, id: CondId) -> String {
+        let mut out = String::new();
+        self.write_cond(&mut out, id, 0);
+        out
+    }
+
+    fn call(&self, out: &mut String, name: &str, arguments: &[ExprId]) {
+        out.push_str(name);
+        out.push('(');
+        for (i, argument) in arguments.iter().enumerate() {
+            if i > 0 {
+                out.push_str(", ");
+            }
+            self.write_expr(out, *argument, 0);
+        }
+        out.push(')');
+    }
+
+    fn infix(&self, out: &mut String, symbol: &str, binds: u8, outer: u8, a: ExprId, b: ExprId) {
+        let parenthesise = binds < outer;
+        if parenthesise {
+            out.push('(');
+        }
+        self.write_expr(out, a, binds);
+        let _ = write!(out, " {symbol} ");
+        self.write_expr(out, b, binds + 1);
+        if parenthesise {
+            out.push(')');
+        }
+    }
+
+    fn write_expr(&self, out: &mut String, id: ExprId, outer: u8) {
+        match self.pool.node(id) {
+            Node::Const(number) => {
+                let _ = write!(out, "{}", number.get());
+            }
+            Node::Input(input) => out.push_str(&self.inputs[input.index()].name),
+            Node::Result => out.push_str("value"),
+            Node::Unary(UnaryOp::Negate, a) => {
+                out.push('-');
+                self.write_expr(out, a, 6);
+            }
+            Node::Unary(op, a) => {
+                let name = UNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("?", |(n, _)| n);
+                self.call(out, name, &[a]);
+            }
+            Node::Binary(BinaryOp::Add, a, b) => self.infix(out, "+", 4, outer, a, b),
+            Node::Binary(BinaryOp::Subtract, a, b) => self.infix(out, "-", 4, outer, a, b),
+            Node::Binary(BinaryOp::Multiply, a, b) => self.infix(out, "*", 5, outer, a, b),
+            Node::Binary(BinaryOp::Divide, a, b) => self.infix(out, "/", 5, outer, a, b),
+            Node::Binary(BinaryOp::Remainder, a, b) => self.infix(out, "%", 5, outer, a, b),
+            Node::Binary(op, a, b) => {
+                let name = BINARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("?", |(n, _)| n);
+                self.call(out, name, &[a, b]);
+            }
+            Node::Ternary(op, a, b, c) => {
+                let name = TERNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("?", |(n, _)| n);
+                self.call(out, name, &[a, b, c]);
+            }
+            Node::Select(condition, then, other) => {
+                out.push_str("if ");
+                self.write_cond(out, condition, 0);
+                out.push_str(" { ");
+                self.write_expr(out, then, 0);
+                out.push_str(" } else { ");
+                self.write_expr(out, other, 0);
+                out.push_str(" }");
+            }
+        }
+    }
+
+    fn junction(&self, out: &mut String, symbol: &str, binds: u8, outer: u8, parts: &[CondId]) {
+        if binds < outer {
+            out.push('(');
+        }
+        for (i, part) in parts.iter().enumerate() {
+            if i > 0 {
+                let _ = write!(out, " {symbol} ");
+            }
+            self.write_cond(out, *part, binds + 1);
+        }
+        if binds < outer {
+            out.push(')');
+        }
+    }
+
+    fn write_cond(&self, out: &mut String, id: CondId, outer: u8) {
+        match self.pool.cond(id) {
+            Cond::Const(value) => {
+                let _ = write!(out, "{value}");
+            }
+            Cond::Level(input, levels) => {
+                let input = &self.inputs[input.index()];
+                let Domain::Discrete(known) = &input.domain else { return };
+                let names: Vec<&str> =
+                    levels.iter().filter_map(|l| known.names.get(usize::from(l)).map(String::as_str)).collect();
+                let _ = match (known.kind, names.as_slice()) {
+                    (LevelKind::Bool, ["true"]) => write!(out, "{}", input.name),
+                    (LevelKind::Bool, _) => write!(out, "!{}", input.name),
+                    (_, [one]) => write!(out, "{} == {one}", input.name),
+                    (_, several) if several.len() + 1 == known.count() && known.count() > 2 => {
+                        let missing = (0..known.count()).find(|l| !levels.contains(*l as u8)).unwrap_or_default();
+                        write!(out, "{} != {}", input.name, known.names[missing])
+                    }
+                    (_, several) => write!(out, "{} in {{{}}}", input.name, several.join(", ")),
+                };
+            }
+            Cond::Compare(op, a, b) => {
+                self.write_expr(out, *a, 4);
+                out.push_str(match op {
+                    Comparison::Less => " < ",
+                    Comparison::LessEqual => " <= ",
+                    Comparison::Equal => " == ",
+                });
+                self.write_expr(out, *b, 4);
+            }
+            Cond::Not(a) => {
+                out.push_str("!(");
+                self.write_cond(out, *a, 0);
+                out.push(')');
+            }
+            Cond::And(parts) => self.junction(out, "&&", 2, outer, parts),
+            Cond::Or(parts) => self.junction(out, "||", 1, outer, parts),
+            Cond::If(c, a, b) => {
+                out.push_str("if ");
+                self.write_cond(out, *c, 0);
+                out.push_str(" { ");
+                self.write_cond(out, *a, 0);
+                out.push_str(" } else { ");
+                self.write_cond(out, *b, 0);
+                out.push_str(" }");
+            }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! The expression part of the language, as written: a syntax tree in which
+//! every node knows its place. Types and meaning come later, in `program`.
+
+use crate::diag::{Span, Spanned};
+
+/// An expression with its place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expr {
+    /// Where it stands in the table's source.
+    pub span: Span,
+    /// What it is.
+    pub kind: ExprKind,
+}
+
+/// The forms of an expression.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExprKind {
+    /// A decimal number.
+    Number(f64),
+    /// A name, possibly dotted: an input, a named value, a local, a level, or a swizzle of one.
+    Name(String),
+    /// `-a`, `!a`.
+    Unary(UnaryOp, Box<Expr>),
+    /// `a + b`, `a && b`, `a < b`, …
+    Binary(BinaryOp, Box<Expr>, Box<Expr>),
+    /// `a in {x, y}`.
+    In(Box<Expr>, Vec<Spanned<String>>),
+    /// `f(a, b)`.
+    Call(Spanned<String>, Vec<Expr>),
+    /// `(expression).xy`.
+    Swizzle(Box<Expr>, Spanned<String>),
+    /// `case(11, V = none)`: the value of another case, with inputs replaced.
+    Case(Spanned<u32>, Vec<(Spanned<String>, Expr)>),
+    /// `if c { a } else { b }`.
+    If(Box<Expr>, Box<Expr>, Box<Expr>),
+    /// `let n = a; b`.
+    Let(Spanned<String>, Box<Expr>, Box<Expr>),
+    /// `[a, b]`: a list of enumeration levels.
+    List(Vec<Expr>),
+}
+
+/// Operators with one operand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnaryOp {
+    /// `-`
+    Negate,
+    /// `!`
+    Not,
+}
+
+/// Operators with two operands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum BinaryOp {
+    Or,
+    And,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+}
+
+impl BinaryOp {
+    /// The operator as written.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            BinaryOp::Or => "||",
+            BinaryOp::And => "&&",
+            BinaryOp::Equal => "==",
+            BinaryOp::NotEqual => "!=",
+            BinaryOp::Less => "<",
+            BinaryOp::LessEqual => "<=",
+            BinaryOp::Greater => ">",
+            BinaryOp::GreaterEqual => ">=",
+            BinaryOp::Add => "+",
+            BinaryOp::Subtract => "-",
+            BinaryOp::Multiply => "*",
+            BinaryOp::Divide => "/",
+            BinaryOp::Remainder => "%",
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Tokens of the expression language.
+
+use crate::diag::{Diagnostic, Span, codes};
+
+/// A token.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Token<'a> {
+    Number(f64),
+    Word(&'a str),
+    Symbol(&'static str),
+    End,
+}
+
+impl Token<'_> {
+    /// The token as it is shown in a message.
+    pub(super) fn describe(&self) -> String {
+        match self {
+            Token::Number(_) => "a number".to_owned(),
+            Token::Word(word) => format!("`{word}`"),
+            Token::Symbol(symbol) => format!("`{symbol}`"),
+            Token::End => "the end of the expression".to_owned(),
+        }
+    }
+}
+
+/// Two-character symbols come first, so that the longest one wins.
+const SYMBOLS: [&str; 25] = [
+    "||", "&&", "==", "!=", "<=", ">=", "<", ">", "+", "-", "*", "/", "%", "!", "(", ")", "{", "}", "[", "]", ",", ";",
+    "=", ".", ":",
+];
+
+/// Splits `text` into tokens; `base` is where the text starts in its source.
+pub(super) fn tokens(text: &str, base: usize) -> Result<Vec<(Span, Token<'_>)>, Diagnostic> {
+    let bytes = text.as_bytes();
+    let mut out = Vec::new();
+    let mut at = 0;
+    while let Some(&byte) = bytes.get(at) {
+        let start = at;
+        let token = if byte.is_ascii_whitespace() {
+            at += 1;
+            continue;
+        } else if byte.is_ascii_digit() || (byte == b'.' && bytes.get(at + 1).is_some_and(u8::is_ascii_digit)) {
+            at = number_end(bytes, at);
+            let literal = &text[start..at];
+            match literal.parse::<f64>() {
+                Ok(number) if number.is_finite() => Token::Number(number),
+                _ => {
+                    return Err(Diagnostic::error(codes::EXPRESSION, format!("`{literal}` is not a usable number"))
+                        .at(Span::new(base + start, base + at), "malformed or too large"));
+                }
+            }
+        } else if byte.is_ascii_alphabetic() || byte == b'_' {
+            // A dotted name is one token: `d_c.r`.
+            while bytes.get(at).is_some_and(|b| {
+                b.is_ascii_alphanumeric()
+                    || *b == b'_'
+                    || (*b == b'.' && bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic))
+            }) {
+                at += 1;
+            }
+            Token::Word(&text[start..at])
+        } else if let Some(symbol) = SYMBOLS.iter().find(|s| text[start..].starts_with(**s)) {
+            at += symbol.len();
+            Token::Symbol(symbol)
+        } else {
+            let found = text[start..].chars().next().unwrap_or('?');
+            let help = match found {
+                '&' | '|' => "logical operators are written `&&` and `||`",
+                _ => {
+                    "an expression consists of numbers, names, + - * / % ! && || == != < <= > >= ( ) { } [ ] and if, else, let, in, case"
+                }
+            };
+            return Err(Diagnostic::error(
+                codes::EXPRESSION,
+                format!("`{}` has no meaning here", found.escape_debug()),
+            )
+            .at(Span::new(base + start, base + start + found.len_utf8()), "unexpected character")
+            .help(help));
+        };
+        out.push((Span::new(base + start, base + at), token));
+    }
+    out.push((Span::new(base + text.len(), base + text.len()), Token::End));
+    Ok(out)
+}
+
+fn number_end(bytes: &[u8], mut at: usize) -> usize {
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        at
+    };
+    at = digits(at);
+    if bytes.get(at) == Some(&b'.') {
+        at = digits(at + 1);
+    }
+    if matches!(bytes.get(at), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(at + 1), Some(b'+' | b'-')));
+        if bytes.get(at + 1 + sign).is_some_and(u8::is_ascii_digit) {
+            at = digits(at + 1 + sign);
+        }
+    }
+    at
+}

@@ -1,0 +1,298 @@
+//! The language as data: a table exactly as it is written, every node with
+//! its place in the source.
+//!
+//! Reading happens in two steps. `read` turns RON into [`Table`] (structure,
+//! no meaning), with expressions already parsed by `parse` into [`expr::Expr`].
+//! Names are resolved, types checked and references followed by
+//! [`crate::program`]; nothing past that point looks at RON again.
+
+pub mod expr;
+mod lex;
+pub(crate) mod names;
+pub(crate) mod parse;
+mod raw;
+mod read;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::diag::{Diagnostic, Failure, Source, Span, Spanned, codes};
+use expr::Expr;
+
+pub use parse::MAX_DEPTH;
+pub(crate) use raw::nearest;
+
+/// Largest accepted table file, in bytes.
+const MAX_BYTES: u64 = 16 << 20;
+
+/// The version of the table language that this compiler reads.
+pub const LANGUAGE: u32 = 1;
+
+/// A table as written.
+#[derive(Debug, Clone)]
+pub struct Table {
+    /// The file it was read from.
+    pub source: Arc<Source>,
+    /// Name of the table and prefix of everything generated from it.
+    pub name: Spanned<String>,
+    /// What the table is.
+    pub title: String,
+    /// Where the technique was published.
+    pub origin: String,
+    /// What it means that several cases match.
+    pub hit_policy: Spanned<HitPolicy>,
+    /// Level sets that several inputs share.
+    pub levels: Vec<(Spanned<String>, Vec<Level>)>,
+    /// The inputs, in the order of the generated parameters.
+    pub inputs: Vec<Input>,
+    /// Conditions and values that have a name of their own.
+    pub names: Vec<Named>,
+    /// Maps of the inputs under which the table is meant to be equivariant.
+    pub symmetries: Vec<Symmetry>,
+    /// Conditions that hold on every state that occurs.
+    pub assumptions: Vec<Assumption>,
+    /// What the table returns.
+    pub output: Spanned<Output>,
+    /// The rows, in the order written.
+    pub cases: Vec<Case>,
+    /// The result where no case matches.
+    pub default: Expr,
+}
+
+/// What it means that several cases match the same input.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HitPolicy {
+    /// The first one written decides.
+    First,
+    /// It does not happen, or they agree: the checker proves it.
+    Unique,
+}
+
+/// A named level of a discrete input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// The number that stands for it where levels are carried as `f32`.
+    pub code: Spanned<f64>,
+}
+
+/// An input of the table.
+#[derive(Debug, Clone)]
+pub struct Input {
+    /// Its name, possibly grouped by a dot.
+    pub name: Spanned<String>,
+    /// The values it can take.
+    pub domain: Spanned<Domain>,
+    /// What it is.
+    pub doc: String,
+    /// Set for inputs that the host produces on demand, with their cost in texture reads.
+    pub fetched: Option<Spanned<f64>>,
+    /// The value that examples and `explain` assume when they leave the input out.
+    pub default: Option<Expr>,
+}
+
+/// The values an input can take.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Domain {
+    /// Levels given in place.
+    Levels(Vec<Level>),
+    /// The levels of a shared set or of another input.
+    LevelsOf(Spanned<String>),
+    /// `false` or `true`.
+    Bool,
+    /// The integers of a closed interval; each is a level named by its decimal digits.
+    Int(i64, i64),
+    /// The real numbers of a closed interval, with their unit.
+    Range(f64, f64, String),
+}
+
+/// A named condition or value.
+#[derive(Debug, Clone)]
+pub struct Named {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// What it stands for.
+    pub value: Expr,
+}
+
+/// A map of inputs, and optionally of the result.
+#[derive(Debug, Clone)]
+pub struct Symmetry {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// For each input that changes: what its new value is made of.
+    pub map: Vec<(Spanned<String>, Image)>,
+    /// The result in terms of `value`, the result of the mapped input.
+    pub result: Option<Expr>,
+    /// What it is.
+    pub doc: String,
+}
+
+/// The image of one input under a symmetry.
+#[derive(Debug, Clone)]
+pub enum Image {
+    /// An expression over the inputs.
+    Expr(Expr),
+    /// The levels of another input (or the same one), renamed. Levels that are
+    /// not mentioned keep their name.
+    Levels {
+        /// The other input, if it is not the mapped one itself.
+        from: Option<Spanned<String>>,
+        /// Old name and new name.
+        map: Vec<(Spanned<String>, Spanned<String>)>,
+    },
+}
+
+/// A condition that holds on every state that occurs.
+#[derive(Debug, Clone)]
+pub struct Assumption {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// The condition.
+    pub condition: Expr,
+    /// Why it holds.
+    pub doc: String,
+}
+
+/// What a table returns.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Output {
+    /// One number, optionally clamped once, at the end.
+    Number(Option<(f64, f64)>),
+    /// Two to four numbers, each clamped like a single one.
+    Vector(usize, Option<(f64, f64)>),
+    /// One level of a shared set or of an input's levels.
+    Enumeration(Spanned<String>),
+    /// At most `max` levels of a set, in order.
+    List {
+        /// The level set, or an input that has it.
+        of: Spanned<String>,
+        /// Most items, 1 to 64.
+        max: usize,
+    },
+}
+
+/// One row of the table.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The number of the case; stable, used in every report and as the second result.
+    pub id: Spanned<u32>,
+    /// The whole row.
+    pub span: Span,
+    /// Section of the source that defines it.
+    pub section: String,
+    /// One line on what it is.
+    pub doc: String,
+    /// How it is decided and what it returns.
+    pub body: CaseBody,
+    /// Misprints of the source that were mended here.
+    pub errata: Vec<Erratum>,
+    /// Inputs with the expected result; every executor runs them.
+    pub examples: Vec<Example>,
+}
+
+/// How a row is decided and what it returns.
+#[derive(Debug, Clone)]
+pub enum CaseBody {
+    /// A guard and the lines of its value, of which the first that applies counts.
+    Rows {
+        /// The guard.
+        when: Expr,
+        /// The lines; at least one.
+        lines: Vec<Line>,
+    },
+    /// Another case under a symmetry.
+    Image {
+        /// The case that is written out.
+        case: Spanned<u32>,
+        /// The symmetry.
+        under: Spanned<String>,
+    },
+}
+
+/// One line of a piecewise value.
+#[derive(Debug, Clone)]
+pub struct Line {
+    /// The value.
+    pub value: Expr,
+    /// When it applies; always, if absent.
+    pub condition: Option<Expr>,
+}
+
+/// A misprint of the source.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Erratum {
+    /// Its number in the list of errata.
+    pub number: u32,
+    /// What is printed.
+    pub printed: String,
+    /// What is meant.
+    pub meant: String,
+}
+
+/// Inputs with the expected result.
+#[derive(Debug, Clone)]
+pub struct Example {
+    /// Where it stands.
+    pub span: Span,
+    /// The inputs that differ from their defaults.
+    pub inputs: Vec<(Spanned<String>, Expr)>,
+    /// The expected result.
+    pub value: Expr,
+}
+
+impl Table {
+    /// Reads a table from a file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is not UTF-8, or is not a well-formed table.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, Failure> {
+        let path = path.as_ref();
+        let name = path.to_string_lossy().replace('\\', "/");
+        Self::parse(Source::new(&*name, read_text(path, MAX_BYTES)?))
+    }
+
+    /// Reads a table from a text.
+    ///
+    /// # Errors
+    /// When the text is not a well-formed table.
+    pub fn parse(source: Arc<Source>) -> Result<Self, Failure> {
+        read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })
+    }
+}
+
+/// Reads a UTF-8 file of bounded size, with errors that say what to do.
+pub(crate) fn read_text(path: &Path, max: u64) -> Result<String, Failure> {
+    let name = path.to_string_lossy().replace('\\', "/");
+    let fail =
+        |message: &str, help: &str| Failure::bare(&*name, Diagnostic::error(codes::UNREADABLE, message).help(help));
+    let metadata = std::fs::metadata(path)
+        .map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions"))?;
+    if metadata.is_dir() {
+        return Err(fail("is a directory, a file was expected", "name the file itself"));
+    }
+    if metadata.len() > max {
+        return Err(fail(&format!("is larger than {} MiB", max >> 20), "split it"));
+    }
+    let bytes = std::fs::read(path)
+        .map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions"))?;
+    String::from_utf8(bytes).map_err(|e| {
+        let at = e.utf8_error().valid_up_to();
+        fail(&format!("is not UTF-8 text (byte {at})"), "save it as UTF-8")
+    })
+}
+
+/// The reason of an I/O error in words that do not depend on the platform.
+pub(crate) fn io_reason(error: &std::io::Error) -> String {
+    use std::io::ErrorKind;
+    match error.kind() {
+        ErrorKind::NotFound => "no such file or directory".to_owned(),
+        ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        ErrorKind::NotADirectory => "a part of the path is not a directory".to_owned(),
+        ErrorKind::IsADirectory => "it is a directory".to_owned(),
+        ErrorKind::StorageFull => "no space left".to_owned(),
+        ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
+        _ => error.to_string(),
+    }
+}

@@ -1,0 +1,96 @@
+//! Which names a table may use.
+//!
+//! Names of tables, inputs and levels appear verbatim in every generated
+//! language, so that shader and table read alike. That is only safe if a name
+//! is a plain identifier and means nothing yet in any of those languages.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use crate::diag::{Diagnostic, Span, codes};
+
+/// Longest accepted name, in characters.
+const MAX_LENGTH: usize = 64;
+
+/// The words of WGSL, GLSL, Rust and of the expression language itself, each
+/// with the languages that claim it. HLSL and MSL are written by naga, which
+/// renames what collides there.
+fn reserved() -> &'static BTreeMap<&'static str, &'static str> {
+    static WORDS: OnceLock<BTreeMap<&'static str, &'static str>> = OnceLock::new();
+    WORDS.get_or_init(|| include_str!("reserved.txt").lines().filter_map(|line| line.split_once(' ')).collect())
+}
+
+/// Checks the name of a table, input or named value.
+/// Dots group inputs (`d_c.r`): each part is checked by itself.
+pub(crate) fn check(name: &str, what: &str, span: Span) -> Result<(), Diagnostic> {
+    well_formed(name, what, span)?;
+    for part in name.split('.') {
+        if let Some(languages) = reserved().get(part) {
+            return Err(Diagnostic::error(codes::RESERVED_NAME, format!("`{part}` is a reserved word"))
+                .at(span, format!("cannot be the name of {what}"))
+                .help(format!("the word is taken in: {}", languages.replace(' ', ", ")))
+                .help(format!("choose another name, for instance `{part}_in`")));
+        }
+    }
+    Ok(())
+}
+
+/// Checks a name that appears in generated code only inside longer names or
+/// comments (a level, a symmetry, an assumption), where reserved words are harmless.
+pub(crate) fn check_inner(name: &str, what: &str, span: Span) -> Result<(), Diagnostic> {
+    if name.contains('.') {
+        return Err(malformed(name, what, span));
+    }
+    well_formed(name, what, span)
+}
+
+fn well_formed(name: &str, what: &str, span: Span) -> Result<(), Diagnostic> {
+    let part_ok = |part: &str| {
+        part.starts_with(|c: char| c.is_ascii_alphabetic())
+            && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+            && !part.ends_with('_')
+            && !part.contains("__")
+    };
+    if name.chars().count() > MAX_LENGTH || !name.split('.').all(part_ok) {
+        return Err(malformed(name, what, span));
+    }
+    Ok(())
+}
+
+fn malformed(name: &str, what: &str, span: Span) -> Diagnostic {
+    let mut shown: String = name.chars().take(24).collect();
+    if shown.len() < name.len() {
+        shown.push_str("...");
+    }
+    Diagnostic::error(codes::BAD_NAME, format!("`{}` cannot be the name of {what}", shown.escape_debug()))
+        .at(span, "not a plain identifier")
+        .help(format!(
+            "a name starts with a letter and goes on with letters, digits and single underscores, \
+             does not end in an underscore, and has at most {MAX_LENGTH} characters"
+        ))
+}
+
+/// The identifier that a table name becomes in generated code.
+pub(crate) fn identifier(name: &str) -> String {
+    name.replace('.', "_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn accepts_the_names_of_the_papers() {
+        for name in ["H", "tV", "d_c.r", "n_top", "px", "C0"] {
+            assert!(check(name, "an input", Span::default()).is_ok(), "{name}");
+        }
+    }
+
+    #[test]
+    fn refuses_code_and_reserved_words() {
+        for name in ["", "1a", "a b", "a;}fn f(", "a__b", "_a", "a_", "é", "a.", "fn", "uniform", "self", "d.float"] {
+            assert!(check(name, "an input", Span::default()).is_err(), "{name}");
+        }
+        assert!(check_inner("default", "a level", Span::default()).is_ok());
+    }
+}

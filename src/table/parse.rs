@@ -1,0 +1,397 @@
+//! Parser of the expression language: precedence climbing over tokens.
+//! The grammar is written down in `docs/language.md`.
+
+use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
+use super::lex::{self, Token};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+
+/// Deepest nesting of an expression. Every later stage, and naga in an
+/// unoptimised build, recurses to the same depth.
+pub const MAX_DEPTH: usize = 64;
+
+/// Parses `text`, which starts at byte `base` of its source.
+pub(crate) fn expression(text: &str, base: usize) -> Result<Expr, Diagnostic> {
+    let tokens = lex::tokens(text, base)?;
+    let mut parser = Parser { tokens, at: 0, depth: 0 };
+    if let Token::End = parser.peek() {
+        return Err(Diagnostic::error(codes::EXPRESSION, "empty expression")
+            .at(Span::new(base, base + text.len()), "expected a value or a condition"));
+    }
+    let expr = parser.block()?;
+    match parser.peek() {
+        Token::End => Ok(expr),
+        Token::Symbol(")") => {
+            Err(parser.unexpected("an operator or the end of the expression").help("this `)` closes nothing"))
+        }
+        _ => Err(parser.unexpected("an operator or the end of the expression")),
+    }
+}
+
+struct Parser<'a> {
+    tokens: Vec<(Span, Token<'a>)>,
+    at: usize,
+    depth: usize,
+}
+
+/// Binding strength of a binary operator; comparisons do not chain.
+fn strength(symbol: &str) -> Option<(u8, BinaryOp)> {
+    Some(match symbol {
+        "||" => (1, BinaryOp::Or),
+        "&&" => (2, BinaryOp::And),
+        "==" => (3, BinaryOp::Equal),
+        "!=" => (3, BinaryOp::NotEqual),
+        "<" => (3, BinaryOp::Less),
+        "<=" => (3, BinaryOp::LessEqual),
+        ">" => (3, BinaryOp::Greater),
+        ">=" => (3, BinaryOp::GreaterEqual),
+        "+" => (4, BinaryOp::Add),
+        "-" => (4, BinaryOp::Subtract),
+        "*" => (5, BinaryOp::Multiply),
+        "/" => (5, BinaryOp::Divide),
+        "%" => (5, BinaryOp::Remainder),
+        _ => return None,
+    })
+}
+
+const COMPARISON: u8 = 3;
+
+impl<'a> Parser<'a> {
+    fn peek(&self) -> Token<'a> {
+        self.tokens[self.at].1
+    }
+
+    fn span(&self) -> Span {
+        self.tokens[self.at].0
+    }
+
+    fn next(&mut self) -> (Span, Token<'a>) {
+        let token = self.tokens[self.at];
+        // The last token is `End`, which is never passed.
+        self.at = (self.at + 1).min(self.tokens.len() - 1);
+        token
+    }
+
+    fn unexpected(&self, expected: &str) -> Diagnostic {
+        Diagnostic::error(codes::EXPRESSION, format!("expected {expected}, found {}", self.peek().describe()))
+            .at(self.span(), format!("expected {expected}"))
+    }
+
+    fn eat(&mut self, symbol: &'static str) -> bool {
+        let found = self.peek() == Token::Symbol(symbol);
+        if found {
+            self.next();
+        }
+        found
+    }
+
+    fn expect(&mut self, symbol: &'static str) -> Result<Span, Diagnostic> {
+        let span = self.span();
+        if self.eat(symbol) { Ok(span) } else { Err(self.unexpected(&format!("`{symbol}`"))) }
+    }
+
+    /// Closes what `open` opened; the message shows both ends.
+    fn close(&mut self, symbol: &'static str, open: Span) -> Result<Span, Diagnostic> {
+        self.expect(symbol).map_err(|error| error.at(open, "opened here"))
+    }
+
+    fn keyword(&mut self, word: &str) -> bool {
+        let found = self.peek() == Token::Word(word);
+        if found {
+            self.next();
+        }
+        found
+    }
+
+    fn name(&mut self, what: &str) -> Result<Spanned<String>, Diagnostic> {
+        match self.peek() {
+            Token::Word(word) => Ok(Spanned::new(self.next().0, word.to_owned())),
+            _ => Err(self.unexpected(what)),
+        }
+    }
+
+    fn nested<T>(&mut self, inner: impl FnOnce(&mut Self) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
+        if self.depth == MAX_DEPTH {
+            return Err(too_deep(self.span()));
+        }
+        self.depth += 1;
+        let result = inner(self);
+        self.depth -= 1;
+        result
+    }
+
+    /// `let name = expr; … expr`
+    fn block(&mut self) -> Result<Expr, Diagnostic> {
+        if self.peek() != Token::Word("let") {
+            return self.nested(|p| p.binary(0));
+        }
+        let start = self.next().0;
+        let name = self.name("a name for the value")?;
+        self.expect("=")?;
+        let value = self.nested(|p| p.binary(0))?;
+        self.expect(";")?;
+        let body = self.nested(Self::block)?;
+        let span = start.to(body.span);
+        Ok(Expr { span, kind: ExprKind::Let(name, Box::new(value), Box::new(body)) })
+    }
+
+    fn binary(&mut self, weakest: u8) -> Result<Expr, Diagnostic> {
+        let mut left = self.unary()?;
+        // A left-associative chain nests to the left: it counts as depth too.
+        let mut links = 0;
+        loop {
+            if self.keyword("in") {
+                left = self.membership(left)?;
+                continue;
+            }
+            let Token::Symbol(symbol) = self.peek() else { break };
+            let Some((binds, op)) = strength(symbol) else { break };
+            if binds < weakest {
+                break;
+            }
+            links += 1;
+            if self.depth + links > MAX_DEPTH {
+                return Err(too_deep(self.span()));
+            }
+            self.next();
+            let right = self.nested(|p| p.binary(binds + 1))?;
+            if binds == COMPARISON
+                && let ExprKind::Binary(first, ..) = &left.kind
+                && strength(first.symbol()).is_some_and(|(s, _)| s == COMPARISON)
+                && !self.closed(&left)
+            {
+                return Err(Diagnostic::error(codes::EXPRESSION, "comparisons cannot be chained")
+                    .at(left.span.to(right.span), "write `a < b && b < c`"));
+            }
+            let span = left.span.to(right.span);
+            left = Expr { span, kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) };
+        }
+        Ok(left)
+    }
+
+    /// Whether the expression that was just read stands in parentheses.
+    fn closed(&self, expr: &Expr) -> bool {
+        self.tokens.iter().any(|(span, token)| *token == Token::Symbol("(") && span.start == expr.span.start)
+    }
+
+    fn membership(&mut self, left: Expr) -> Result<Expr, Diagnostic> {
+        let open = self.expect("{")?;
+        let mut levels = Vec::new();
+        loop {
+            levels.push(self.level()?);
+            if !self.eat(",") {
+                break;
+            }
+        }
+        let end = self.close("}", open)?;
+        let span = left.span.to(end);
+        Ok(Expr { span, kind: ExprKind::In(Box::new(left), levels) })
+    }
+
+    fn level(&mut self) -> Result<Spanned<String>, Diagnostic> {
+        let negative = self.peek() == Token::Symbol("-");
+        if negative {
+            self.next();
+        }
+        match self.peek() {
+            Token::Number(number) => {
+                let span = self.next().0;
+                Ok(Spanned::new(span, format!("{}", if negative { -number } else { number })))
+            }
+            _ => self.name("the name of a level"),
+        }
+    }
+
+    fn unary(&mut self) -> Result<Expr, Diagnostic> {
+        let op = match self.peek() {
+            Token::Symbol("-") => UnaryOp::Negate,
+            Token::Symbol("!") => UnaryOp::Not,
+            _ => return self.postfix(),
+        };
+        let start = self.next().0;
+        let operand = self.nested(Self::unary)?;
+        let span = start.to(operand.span);
+        Ok(Expr { span, kind: ExprKind::Unary(op, Box::new(operand)) })
+    }
+
+    fn postfix(&mut self) -> Result<Expr, Diagnostic> {
+        let mut expr = self.primary()?;
+        while self.eat(".") {
+            let swizzle = self.name("a component such as `x` or `xy`")?;
+            let span = expr.span.to(swizzle.span);
+            expr = Expr { span, kind: ExprKind::Swizzle(Box::new(expr), swizzle) };
+        }
+        Ok(expr)
+    }
+
+    fn primary(&mut self) -> Result<Expr, Diagnostic> {
+        let start = self.span();
+        match self.peek() {
+            Token::Number(number) => {
+                self.next();
+                Ok(Expr { span: start, kind: ExprKind::Number(number) })
+            }
+            Token::Symbol("(") => {
+                self.next();
+                let inner = self.nested(|p| p.binary(0))?;
+                let end = self.close(")", start)?;
+                Ok(Expr { span: start.to(end), ..inner })
+            }
+            Token::Symbol("[") => {
+                self.next();
+                let items = self.arguments("]", start)?;
+                Ok(Expr { span: start.to(items.1), kind: ExprKind::List(items.0) })
+            }
+            Token::Word("if") => self.nested(Self::conditional),
+            Token::Word("case") => self.case_reference(),
+            Token::Word("let" | "else" | "in") => Err(self.unexpected("a value")),
+            Token::Word(word) => {
+                self.next();
+                let open = self.span();
+                if self.eat("(") {
+                    let (arguments, end) = self.arguments(")", open)?;
+                    let callee = Spanned::new(start, word.to_owned());
+                    return Ok(Expr { span: start.to(end), kind: ExprKind::Call(callee, arguments) });
+                }
+                Ok(Expr { span: start, kind: ExprKind::Name(word.to_owned()) })
+            }
+            _ => Err(self.unexpected("a value")),
+        }
+    }
+
+    fn arguments(&mut self, end: &'static str, open: Span) -> Result<(Vec<Expr>, Span), Diagnostic> {
+        let mut arguments = Vec::new();
+        let here = self.span();
+        if self.eat(end) {
+            return Ok((arguments, here));
+        }
+        loop {
+            arguments.push(self.nested(|p| p.binary(0))?);
+            if !self.eat(",") {
+                break;
+            }
+        }
+        let end = self.close(end, open)?;
+        Ok((arguments, end))
+    }
+
+    fn conditional(&mut self) -> Result<Expr, Diagnostic> {
+        let start = self.next().0;
+        let condition = self.nested(|p| p.binary(0))?;
+        let (then, _) = self.braced()?;
+        if !self.keyword("else") {
+            return Err(self.unexpected("`else`").help("every `if` has a value, so every `if` needs an `else`"));
+        }
+        let (other, end) = if self.peek() == Token::Word("if") {
+            let other = self.nested(Self::conditional)?;
+            let end = other.span;
+            (other, end)
+        } else {
+            self.braced()?
+        };
+        let kind = ExprKind::If(Box::new(condition), Box::new(then), Box::new(other));
+        Ok(Expr { span: start.to(end), kind })
+    }
+
+    fn braced(&mut self) -> Result<(Expr, Span), Diagnostic> {
+        let open = self.expect("{")?;
+        let body = self.nested(Self::block)?;
+        let end = self.close("}", open)?;
+        Ok((body, end))
+    }
+
+    /// `case(11, V = none)`
+    fn case_reference(&mut self) -> Result<Expr, Diagnostic> {
+        let start = self.next().0;
+        let open = self.expect("(")?;
+        let id = match self.peek() {
+            Token::Number(n) if n.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&n) => {
+                Spanned::new(self.next().0, n as u32)
+            }
+            _ => return Err(self.unexpected("the number of a case")),
+        };
+        let mut set = Vec::new();
+        while self.eat(",") {
+            let input = self.name("the input to replace")?;
+            self.expect("=")?;
+            set.push((input, self.nested(|p| p.binary(0))?));
+        }
+        let end = self.close(")", open)?;
+        Ok(Expr { span: start.to(end), kind: ExprKind::Case(id, set) })
+    }
+}
+
+fn too_deep(span: Span) -> Diagnostic {
+    Diagnostic::error(codes::TOO_DEEP, format!("the expression is nested deeper than {MAX_DEPTH} levels"))
+        .at(span, "too deep from here on")
+        .help("give parts of it a name under `names` and use the names")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The tree, fully parenthesised.
+    fn shape(expr: &Expr) -> String {
+        match &expr.kind {
+            ExprKind::Number(n) => format!("{n}"),
+            ExprKind::Name(n) => n.clone(),
+            ExprKind::Unary(op, a) => format!("({}{})", if *op == UnaryOp::Not { "!" } else { "-" }, shape(a)),
+            ExprKind::Binary(op, a, b) => format!("({} {} {})", shape(a), op.symbol(), shape(b)),
+            ExprKind::In(a, levels) => {
+                format!("({} in {})", shape(a), levels.iter().map(|l| l.value.as_str()).collect::<Vec<_>>().join("|"))
+            }
+            ExprKind::Call(f, args) => {
+                format!("{}({})", f.value, args.iter().map(shape).collect::<Vec<_>>().join(", "))
+            }
+            ExprKind::Swizzle(a, s) => format!("{}.{}", shape(a), s.value),
+            ExprKind::Case(id, set) => {
+                let set: String = set.iter().map(|(n, e)| format!(", {} = {}", n.value, shape(e))).collect();
+                format!("case({}{set})", id.value)
+            }
+            ExprKind::If(c, a, b) => format!("if {} {{{}}} else {{{}}}", shape(c), shape(a), shape(b)),
+            ExprKind::Let(n, a, b) => format!("let {} = {}; {}", n.value, shape(a), shape(b)),
+            ExprKind::List(items) => format!("[{}]", items.iter().map(shape).collect::<Vec<_>>().join(", ")),
+        }
+    }
+
+    fn parsed(text: &str) -> String {
+        expression(text, 0).map(|e| shape(&e)).unwrap_or_else(|d| format!("error: {}", d.message))
+    }
+
+    #[test]
+    fn precedence_follows_wgsl() {
+        assert_eq!(parsed("a + b * c - d"), "((a + (b * c)) - d)");
+        assert_eq!(parsed("a || b && !c == d"), "(a || (b && ((!c) == d)))");
+        assert_eq!(parsed("1 - py < dH"), "((1 - py) < dH)");
+        assert_eq!(parsed("H in {left, right} && x"), "((H in left|right) && x)");
+        assert_eq!(parsed("(a + b).x"), "(a + b).x");
+        assert_eq!(parsed("(a < b) == c"), "((a < b) == c)");
+    }
+
+    #[test]
+    fn structured_forms() {
+        assert_eq!(
+            parsed("if H == left { case(11, V = none) } else if x { 1 } else { let q = 2; q }"),
+            "if (H == left) {case(11, V = none)} else {if x {1} else {let q = 2; q}}"
+        );
+        assert_eq!(parsed("[a, b]"), "[a, b]");
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        assert_eq!(parsed("(a + b"), "error: expected `)`, found the end of the expression");
+        assert_eq!(parsed("a + b)"), "error: expected an operator or the end of the expression, found `)`");
+        assert_eq!(parsed("a < b < c"), "error: comparisons cannot be chained");
+        assert_eq!(parsed("if a { 1 }"), "error: expected `else`, found the end of the expression");
+        assert_eq!(parsed(""), "error: empty expression");
+        assert_eq!(parsed("a & b"), "error: `&` has no meaning here");
+        assert_eq!(parsed("1e999"), "error: `1e999` is not a usable number");
+    }
+
+    #[test]
+    fn depth_is_bounded() {
+        for text in ["(".repeat(10_000), "-".repeat(10_000), "1+".repeat(10_000) + "1", "if a {".repeat(10_000)] {
+            assert!(parsed(&text).contains("nested deeper"), "{}", parsed(&text));
+        }
+    }
+}

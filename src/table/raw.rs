@@ -1,0 +1,225 @@
+//! RON with places.
+//!
+//! `ron` reports positions for syntax errors only, not for values. But a
+//! borrowed [`RawValue`] is a slice of the source text, so its address minus
+//! the address of the source is its position. A table is therefore read in
+//! layers: serde sorts a struct's fields into [`Raw`] slices, and each slice is
+//! read by itself, knowing where it stands.
+
+use ron::Options;
+use ron::extensions::Extensions;
+use ron::value::RawValue;
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+
+use super::expr::Expr;
+use super::parse;
+use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
+
+/// A piece of RON, not yet interpreted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Raw<'a>(&'a str);
+
+impl<'de: 'a, 'a> Deserialize<'de> for Raw<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let raw: &'a RawValue = Deserialize::deserialize(deserializer)?;
+        Ok(Raw(raw.trim().get_ron()))
+    }
+}
+
+/// A map in the order written, duplicates included.
+#[derive(Debug)]
+pub(super) struct RawMap<'a>(pub(super) Vec<(Raw<'a>, Raw<'a>)>);
+
+impl<'a> RawMap<'a> {
+    pub(super) fn empty() -> Self {
+        RawMap(Vec::new())
+    }
+}
+
+impl<'de: 'a, 'a> Deserialize<'de> for RawMap<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = RawMap<'de>;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a map such as `{\"name\": value}`")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(RawMap(entries))
+            }
+        }
+        deserializer.deserialize_map(Entries)
+    }
+}
+
+/// Reads pieces of one source.
+#[derive(Clone, Copy)]
+pub(super) struct Reader<'a> {
+    source: &'a Source,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(source: &'a Source) -> Self {
+        Self { source }
+    }
+
+    /// The whole source as one piece.
+    pub(super) fn whole(&self) -> Raw<'a> {
+        Raw(&self.source.text)
+    }
+
+    /// Where a piece stands.
+    pub(super) fn span(&self, raw: Raw<'a>) -> Span {
+        // A `Raw` is a slice of the source, so the difference of the addresses is its offset.
+        let start = (raw.0.as_ptr() as usize).saturating_sub(self.source.text.as_ptr() as usize);
+        Span::new(start, start + raw.0.len())
+    }
+
+    /// Reads a piece as `T`.
+    pub(super) fn get<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<T, Diagnostic> {
+        let options = Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        options.from_str(raw.0).map_err(|error| {
+            let base = self.span(raw).start;
+            let offset = |p: ron::error::Position| base + Source::offset(raw.0, p.line, p.col);
+            let (start, end) = (offset(error.span.start), offset(error.span.end));
+            let end = end.max(start).min(self.source.text.len());
+            describe(&error.code).at(Span::new(start.min(end), end), "here")
+        })
+    }
+
+    /// Reads a piece as `T` and keeps its place.
+    pub(super) fn spanned<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<Spanned<T>, Diagnostic> {
+        Ok(Spanned::new(self.span(raw), self.get(raw)?))
+    }
+
+    /// A word in quotes or bare: `"left"`, `left`, `0.5`, `true`.
+    pub(super) fn word(&self, raw: Raw<'a>) -> Result<Spanned<String>, Diagnostic> {
+        match raw.0.starts_with(['"', 'r']) && raw.0.ends_with(['"', '#']) {
+            true => self.spanned(raw),
+            false => Ok(Spanned::new(self.span(raw), raw.0.to_owned())),
+        }
+    }
+
+    /// What a piece starts with decides how it is read.
+    pub(super) fn shape(&self, raw: Raw<'a>) -> Shape<'a> {
+        match raw.0.as_bytes().first() {
+            Some(b'"') => Shape::Text,
+            Some(b'r') if raw.0.starts_with("r\"") || raw.0.starts_with("r#") => Shape::Text,
+            Some(b'{') => Shape::Map,
+            Some(b'[') => Shape::List,
+            Some(b'(') => Shape::Tuple,
+            Some(b) if b.is_ascii_alphabetic() || *b == b'_' => {
+                let end = raw.0.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(raw.0.len());
+                Shape::Variant(&raw.0[..end])
+            }
+            _ => Shape::Other,
+        }
+    }
+
+    /// The expression in a piece: a string, or a bare number or boolean.
+    pub(super) fn expr(&self, raw: Raw<'a>) -> Result<Expr, Diagnostic> {
+        let span = self.span(raw);
+        match self.shape(raw) {
+            Shape::Text => {
+                let text = raw.0;
+                let hashes = text.trim_start_matches('r').bytes().take_while(|b| *b == b'#').count();
+                let quote = usize::from(text.starts_with('r')) + hashes + 1;
+                if !text.starts_with('r')
+                    && let Some(escape) = text.find('\\')
+                {
+                    let at = span.start + escape;
+                    return Err(Diagnostic::error(codes::EXPRESSION, "an expression contains no escapes")
+                        .at(Span::new(at, at + 1), "unexpected `\\`"));
+                }
+                parse::expression(&text[quote..text.len() - 1 - hashes], span.start + quote)
+            }
+            Shape::Variant("true" | "false") | Shape::Other => parse::expression(raw.0, span.start),
+            _ => Err(Diagnostic::error(codes::STRUCTURE, "expected an expression")
+                .at(span, "neither a string nor a number")
+                .help("write it as a string, for instance \"min(px, 1 - py)\"")),
+        }
+    }
+}
+
+/// The outward form of a piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shape<'a> {
+    Text,
+    Map,
+    List,
+    Tuple,
+    Variant(&'a str),
+    Other,
+}
+
+/// A RON error in the words of the table language.
+fn describe(error: &ron::Error) -> Diagnostic {
+    use ron::Error as E;
+    let quoted = |names: &[&str]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+    let known = |names: &[&'static str]| format!("known here: {}", quoted(names));
+    match error {
+        E::NoSuchStructField { expected, found, .. } => {
+            let error = Diagnostic::error(codes::STRUCTURE, format!("unknown field `{found}`"));
+            match nearest(found, expected.iter().copied()) {
+                Some(close) => error.help(format!("did you mean `{close}`?")),
+                None => error,
+            }
+            .help(known(expected))
+        }
+        E::NoSuchEnumVariant { expected, found, .. } => {
+            Diagnostic::error(codes::STRUCTURE, format!("unknown variant `{found}`")).help(known(expected))
+        }
+        E::MissingStructField { field, outer } => {
+            let outer = outer.as_deref().map(|o| format!(" in `{o}`")).unwrap_or_default();
+            Diagnostic::error(codes::STRUCTURE, format!("the field `{field}` is missing{outer}"))
+        }
+        E::DuplicateStructField { field, .. } => {
+            Diagnostic::error(codes::STRUCTURE, format!("the field `{field}` is given twice"))
+        }
+        E::ExceededRecursionLimit => Diagnostic::error(codes::RON, "the file is nested too deeply")
+            .help("tables need no more than about ten levels of brackets"),
+        E::InvalidValueForType { expected, found } => {
+            Diagnostic::error(codes::STRUCTURE, format!("expected {expected}, found {found}"))
+        }
+        other => Diagnostic::error(codes::RON, format!("malformed RON: {}", lower_first(&other.to_string()))),
+    }
+}
+
+fn lower_first(text: &str) -> String {
+    let mut chars = text.chars();
+    match chars.next() {
+        Some(first) => first.to_lowercase().chain(chars).collect(),
+        None => String::new(),
+    }
+}
+
+/// The known name closest to a misspelt one, if any is close.
+pub(crate) fn nearest<'n>(found: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    if found.len() > 64 {
+        return None;
+    }
+    let limit = (found.chars().count() / 3).max(1);
+    known.into_iter().map(|k| (distance(found, k), k)).filter(|(d, _)| *d <= limit).min().map(|(_, k)| k)
+}
+
+/// Levenshtein distance.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

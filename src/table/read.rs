@@ -1,0 +1,475 @@
+//! RON text → [`Table`].
+//!
+//! One `…Ron` struct per construct says which fields it has; serde refuses the
+//! rest. Independent parts (inputs, cases, …) are read one by one, so that a
+//! mistake in one does not hide the mistakes in the others.
+
+use serde::Deserialize;
+
+use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
+use super::raw::{Raw, RawMap, Reader, Shape};
+use super::{
+    Assumption, Case, CaseBody, Domain, Erratum, Example, HitPolicy, Image, Input, LANGUAGE, Level, Line, Named,
+    Output, Symmetry, Table,
+};
+use crate::diag::{Diagnostic, Source, Spanned, codes};
+use std::sync::Arc;
+
+type Result<T> = std::result::Result<T, Diagnostic>;
+
+#[derive(Deserialize)]
+#[serde(rename = "Table", deny_unknown_fields)]
+struct TableRon<'a> {
+    #[serde(borrow)]
+    language: Raw<'a>,
+    name: Raw<'a>,
+    #[serde(default)]
+    title: String,
+    #[serde(default)]
+    source: String,
+    hit_policy: Raw<'a>,
+    #[serde(default = "RawMap::empty")]
+    levels: RawMap<'a>,
+    inputs: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    names: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    symmetries: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    assume: RawMap<'a>,
+    output: Raw<'a>,
+    cases: Vec<Raw<'a>>,
+    default: Raw<'a>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+enum InputRon<'a> {
+    Levels {
+        #[serde(borrow, default)]
+        values: Option<RawMap<'a>>,
+        #[serde(default)]
+        of: Option<Raw<'a>>,
+        #[serde(default)]
+        doc: String,
+        #[serde(default)]
+        fetched: Option<Raw<'a>>,
+        #[serde(default)]
+        default: Option<Raw<'a>>,
+    },
+    Bool {
+        #[serde(default)]
+        doc: String,
+        #[serde(default)]
+        fetched: Option<Raw<'a>>,
+        #[serde(default)]
+        default: Option<Raw<'a>>,
+    },
+    Int {
+        from: i64,
+        to: i64,
+        #[serde(default)]
+        doc: String,
+        #[serde(default)]
+        fetched: Option<Raw<'a>>,
+        #[serde(default)]
+        default: Option<Raw<'a>>,
+    },
+    Range {
+        from: f64,
+        to: f64,
+        #[serde(default)]
+        unit: String,
+        #[serde(default)]
+        doc: String,
+        #[serde(default)]
+        fetched: Option<Raw<'a>>,
+        #[serde(default)]
+        default: Option<Raw<'a>>,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FetchedRon {
+    cost: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Symmetry", deny_unknown_fields)]
+struct SymmetryRon<'a> {
+    #[serde(borrow)]
+    map: RawMap<'a>,
+    #[serde(default)]
+    result: Option<Raw<'a>>,
+    #[serde(default)]
+    doc: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+enum OutputRon<'a> {
+    Number {
+        #[serde(default)]
+        clamp: Option<(f64, f64)>,
+    },
+    Vector {
+        size: usize,
+        #[serde(default)]
+        clamp: Option<(f64, f64)>,
+    },
+    Enumeration {
+        #[serde(borrow)]
+        of: Raw<'a>,
+    },
+    List {
+        of: Raw<'a>,
+        max: usize,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Case", deny_unknown_fields)]
+struct CaseRon<'a> {
+    #[serde(borrow)]
+    id: Raw<'a>,
+    #[serde(default)]
+    section: String,
+    #[serde(default)]
+    doc: String,
+    #[serde(default)]
+    when: Option<Raw<'a>>,
+    #[serde(default)]
+    value: Option<Raw<'a>>,
+    #[serde(default)]
+    lines: Option<Vec<Raw<'a>>>,
+    #[serde(default)]
+    is: Option<Raw<'a>>,
+    #[serde(default)]
+    errata: Vec<ErratumRon>,
+    #[serde(default)]
+    examples: Vec<Raw<'a>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Erratum", deny_unknown_fields)]
+struct ErratumRon {
+    no: u32,
+    printed: String,
+    meant: String,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Image", deny_unknown_fields)]
+struct ImageOfRon<'a> {
+    #[serde(borrow)]
+    case: Raw<'a>,
+    under: Raw<'a>,
+}
+
+/// Reads a whole table, collecting as many mistakes as possible.
+pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diagnostic>> {
+    let read = Reader::new(source);
+    let ron: TableRon<'_> = read.get(read.whole()).map_err(|d| vec![d])?;
+    let language = read.spanned::<u32>(ron.language).map_err(|d| vec![d])?;
+    if language.value != LANGUAGE {
+        let message = format!("this compiler reads version {LANGUAGE} of the table language, not {}", language.value);
+        return Err(vec![
+            Diagnostic::error(codes::LANGUAGE_VERSION, message).at(language.span, "version of this table"),
+        ]);
+    }
+    let mut errors = Errors(Vec::new());
+    let name = errors.take(read.spanned::<String>(ron.name));
+    let hit_policy = errors.take(read.hit_policy(ron.hit_policy));
+    let levels = errors.each(ron.levels.0, |(n, v)| Ok((read.word(n)?, read.levels(&read.get(v)?)?)));
+    let inputs = errors.each(ron.inputs.0, |(n, v)| read.input(n, v));
+    let names = errors.each(ron.names.0, |(n, v)| Ok(Named { name: read.word(n)?, value: read.condition(v)? }));
+    let symmetries = errors.each(ron.symmetries.0, |(n, v)| read.symmetry(n, v));
+    let assumptions = errors.each(ron.assume.0, |(n, v)| read.assumption(n, v));
+    let output = errors.take(read.output(ron.output));
+    let cases = errors.each(ron.cases, |raw| read.case(raw));
+    let default = errors.take(read.expr(ron.default));
+    match (name, hit_policy, output, default) {
+        (Some(name), Some(hit_policy), Some(output), Some(default)) if errors.0.is_empty() => Ok(Table {
+            source: source.clone(),
+            name,
+            title: ron.title,
+            origin: ron.source,
+            hit_policy,
+            levels,
+            inputs,
+            names,
+            symmetries,
+            assumptions,
+            output,
+            cases,
+            default,
+        }),
+        _ => Err(errors.0),
+    }
+}
+
+struct Errors(Vec<Diagnostic>);
+
+impl Errors {
+    fn take<T>(&mut self, result: Result<T>) -> Option<T> {
+        result.map_err(|error| self.0.push(error)).ok()
+    }
+
+    fn each<I, T>(&mut self, items: Vec<I>, mut read: impl FnMut(I) -> Result<T>) -> Vec<T> {
+        items.into_iter().filter_map(|item| self.take(read(item))).collect()
+    }
+}
+
+impl<'a> Reader<'a> {
+    fn hit_policy(&self, raw: Raw<'a>) -> Result<Spanned<HitPolicy>> {
+        let value = match self.shape(raw) {
+            Shape::Variant("First") => HitPolicy::First,
+            Shape::Variant("Unique") => HitPolicy::Unique,
+            _ => {
+                return Err(Diagnostic::error(codes::STRUCTURE, "unknown hit policy")
+                    .at(self.span(raw), "expected `First` or `Unique`")
+                    .help("First: the first matching case decides. Unique: no two cases match, or they agree"));
+            }
+        };
+        Ok(Spanned::new(self.span(raw), value))
+    }
+
+    fn levels(&self, map: &RawMap<'a>) -> Result<Vec<Level>> {
+        map.0.iter().map(|(name, code)| Ok(Level { name: self.word(*name)?, code: self.spanned(*code)? })).collect()
+    }
+
+    fn input(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Input> {
+        let span = self.span(raw);
+        let (domain, doc, fetched, default) = match self.get::<InputRon<'a>>(raw)? {
+            InputRon::Levels { values, of, doc, fetched, default } => {
+                let domain = match (values, of) {
+                    (Some(values), None) => Domain::Levels(self.levels(&values)?),
+                    (None, Some(of)) => Domain::LevelsOf(self.word(of)?),
+                    _ => {
+                        return Err(Diagnostic::error(codes::STRUCTURE, "`Levels` needs either `values` or `of`")
+                            .at(span, "give exactly one of the two")
+                            .help("Levels(values: {\"off\": 0, \"on\": 1}) or Levels(of: \"name of a level set or input\")"));
+                    }
+                };
+                (domain, doc, fetched, default)
+            }
+            InputRon::Bool { doc, fetched, default } => (Domain::Bool, doc, fetched, default),
+            InputRon::Int { from, to, doc, fetched, default } => (Domain::Int(from, to), doc, fetched, default),
+            InputRon::Range { from, to, unit, doc, fetched, default } => {
+                (Domain::Range(from, to, unit), doc, fetched, default)
+            }
+        };
+        let fetched =
+            fetched.map(|raw| Ok(Spanned::new(self.span(raw), self.get::<FetchedRon>(raw)?.cost))).transpose()?;
+        let default = default.map(|raw| self.level_or_expr(raw)).transpose()?;
+        Ok(Input { name: self.word(name)?, domain: Spanned::new(span, domain), doc, fetched, default })
+    }
+
+    /// A level by its quoted or bare name, or an expression.
+    fn level_or_expr(&self, raw: Raw<'a>) -> Result<Expr> {
+        match self.shape(raw) {
+            Shape::Variant(word) => Ok(Expr { span: self.span(raw), kind: ExprKind::Name(word.to_owned()) }),
+            _ => self.expr(raw),
+        }
+    }
+
+    /// A condition: an expression, or guards as data.
+    ///
+    /// `{"H": ["left", "right"], "b": "entering"}` is a conjunction; `All`, `Any` and
+    /// `Not` combine. The result is the same tree that the infix form gives.
+    fn condition(&self, raw: Raw<'a>) -> Result<Expr> {
+        let span = self.span(raw);
+        match self.shape(raw) {
+            Shape::Map => {
+                let map: RawMap<'a> = self.get(raw)?;
+                let atoms = map.0.iter().map(|(n, l)| self.atom(*n, *l)).collect::<Result<Vec<_>>>()?;
+                self.chain(BinaryOp::And, atoms, raw)
+            }
+            Shape::Variant(word @ ("All" | "Any")) => {
+                let items = match self.get::<CombinedRon<'a>>(raw)? {
+                    CombinedRon::All(items) | CombinedRon::Any(items) => items,
+                    CombinedRon::Not(item) => vec![item],
+                };
+                let items = items.into_iter().map(|item| self.condition(item)).collect::<Result<Vec<_>>>()?;
+                self.chain(if word == "All" { BinaryOp::And } else { BinaryOp::Or }, items, raw)
+            }
+            Shape::Variant("Not") => match self.get::<CombinedRon<'a>>(raw)? {
+                CombinedRon::Not(item) => {
+                    Ok(Expr { span, kind: ExprKind::Unary(UnaryOp::Not, Box::new(self.condition(item)?)) })
+                }
+                CombinedRon::All(_) | CombinedRon::Any(_) => Err(self.no_condition(raw)),
+            },
+            Shape::Text | Shape::Other | Shape::Variant("true" | "false") => self.expr(raw),
+            _ => Err(self.no_condition(raw)),
+        }
+    }
+
+    fn no_condition(&self, raw: Raw<'a>) -> Diagnostic {
+        Diagnostic::error(codes::STRUCTURE, "expected a condition").at(self.span(raw), "not a condition").help(
+            "write \"H == left && tV == dual_positive\", {\"H\": [\"left\", \"right\"]}, All([…]), Any([…]) or Not(…)",
+        )
+    }
+
+    /// Joins conditions, balanced, so that long lists stay shallow.
+    fn chain(&self, op: BinaryOp, mut items: Vec<Expr>, raw: Raw<'a>) -> Result<Expr> {
+        if items.is_empty() {
+            return Err(Diagnostic::error(codes::STRUCTURE, "an empty list of conditions")
+                .at(self.span(raw), "expected at least one condition"));
+        }
+        while items.len() > 1 {
+            let mut next = Vec::with_capacity(items.len().div_ceil(2));
+            let mut pairs = items.into_iter();
+            while let Some(left) = pairs.next() {
+                next.push(match pairs.next() {
+                    Some(right) => {
+                        let span = left.span.to(right.span);
+                        Expr { span, kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) }
+                    }
+                    None => left,
+                });
+            }
+            items = next;
+        }
+        Ok(items.remove(0))
+    }
+
+    /// `"H": "left"` or `"H": ["left", "right"]`
+    fn atom(&self, name: Raw<'a>, levels: Raw<'a>) -> Result<Expr> {
+        let name = self.word(name)?;
+        let span = name.span.to(self.span(levels));
+        let levels = match self.shape(levels) {
+            Shape::List => {
+                self.get::<Vec<Raw<'a>>>(levels)?.into_iter().map(|l| self.word(l)).collect::<Result<Vec<_>>>()?
+            }
+            _ => vec![self.word(levels)?],
+        };
+        let input = Expr { span: name.span, kind: ExprKind::Name(name.value) };
+        Ok(Expr { span, kind: ExprKind::In(Box::new(input), levels) })
+    }
+
+    fn symmetry(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Symmetry> {
+        let ron: SymmetryRon<'a> = self.get(raw)?;
+        let map = ron.map.0.iter().map(|(n, i)| Ok((self.word(*n)?, self.image(*i)?))).collect::<Result<_>>()?;
+        let result = ron.result.map(|r| self.expr(r)).transpose()?;
+        Ok(Symmetry { name: self.word(name)?, map, result, doc: ron.doc })
+    }
+
+    fn image(&self, raw: Raw<'a>) -> Result<Image> {
+        let renaming = |map: RawMap<'a>| {
+            map.0.iter().map(|(a, b)| Ok((self.word(*a)?, self.word(*b)?))).collect::<Result<Vec<_>>>()
+        };
+        match self.shape(raw) {
+            Shape::Map => Ok(Image::Levels { from: None, map: renaming(self.get(raw)?)? }),
+            Shape::Variant("From") => {
+                let FromRon::From(input, map) = self.get(raw)?;
+                Ok(Image::Levels { from: Some(self.word(input)?), map: renaming(map)? })
+            }
+            _ => self.expr(raw).map(Image::Expr),
+        }
+    }
+
+    fn assumption(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Assumption> {
+        let name = self.word(name)?;
+        let (condition, doc) = match self.shape(raw) {
+            Shape::Tuple => {
+                let (condition, doc): (Raw<'a>, String) = self.get(raw)?;
+                (condition, doc)
+            }
+            _ => (raw, String::new()),
+        };
+        Ok(Assumption { name, condition: self.condition(condition)?, doc })
+    }
+
+    fn output(&self, raw: Raw<'a>) -> Result<Spanned<Output>> {
+        let span = self.span(raw);
+        let output = match self.get::<OutputRon<'a>>(raw)? {
+            OutputRon::Number { clamp } => Output::Number(clamp),
+            OutputRon::Vector { size, clamp } => Output::Vector(size, clamp),
+            OutputRon::Enumeration { of } => Output::Enumeration(self.word(of)?),
+            OutputRon::List { of, max } => Output::List { of: self.word(of)?, max },
+        };
+        let (size_ok, clamp) = match &output {
+            Output::Number(clamp) => (true, *clamp),
+            Output::Vector(size, clamp) => ((2..=4).contains(size), *clamp),
+            Output::Enumeration(_) => (true, None),
+            Output::List { max, .. } => ((1..=64).contains(max), None),
+        };
+        if !size_ok {
+            return Err(Diagnostic::error(codes::DOMAIN, "impossible size of the output")
+                .at(span, "a vector has 2 to 4 components, a list at most 64 items"));
+        }
+        if clamp.is_some_and(|(lo, hi)| !(lo.is_finite() && hi.is_finite() && lo <= hi)) {
+            return Err(Diagnostic::error(codes::DOMAIN, "`clamp` needs two finite bounds in ascending order")
+                .at(span, "in this output"));
+        }
+        Ok(Spanned::new(span, output))
+    }
+
+    fn case(&self, raw: Raw<'a>) -> Result<Case> {
+        let span = self.span(raw);
+        let ron: CaseRon<'a> = self.get(raw)?;
+        let id = self.spanned::<u32>(ron.id)?;
+        let shape = |message: &str| {
+            Err(Diagnostic::error(codes::CASE_SHAPE, format!("case {}: {message}", id.value))
+                .at(span, "this case")
+                .help("a case has `when` with `value` or `lines`, or it has `is` alone"))
+        };
+        let body = match (ron.when, ron.value, ron.lines, ron.is) {
+            (Some(when), Some(value), None, None) => CaseBody::Rows {
+                when: self.condition(when)?,
+                lines: vec![Line { value: self.expr(value)?, condition: None }],
+            },
+            (Some(when), None, Some(lines), None) => {
+                let lines = lines.into_iter().map(|line| self.line(line)).collect::<Result<Vec<_>>>()?;
+                if lines.is_empty() {
+                    return shape("`lines` is empty");
+                }
+                CaseBody::Rows { when: self.condition(when)?, lines }
+            }
+            (None, None, None, Some(is)) => {
+                let image: ImageOfRon<'a> = self.get(is)?;
+                CaseBody::Image { case: self.spanned(image.case)?, under: self.word(image.under)? }
+            }
+            (None, None, None, None) => return shape("has neither guard nor value"),
+            (None, ..) => return shape("has no guard (`when`)"),
+            (Some(_), None, None, None) => return shape("has no value"),
+            _ => return shape("fields that exclude each other"),
+        };
+        let errata = ron.errata.into_iter().map(|e| Erratum { number: e.no, printed: e.printed, meant: e.meant });
+        let examples = ron.examples.into_iter().map(|e| self.example(e)).collect::<Result<_>>()?;
+        Ok(Case { id, span, section: ron.section, doc: ron.doc, body, errata: errata.collect(), examples })
+    }
+
+    /// `("px + py - 1", "NB == left")`: a value and when it applies.
+    fn line(&self, raw: Raw<'a>) -> Result<Line> {
+        match self.shape(raw) {
+            Shape::Tuple => {
+                let (value, condition): (Raw<'a>, Raw<'a>) = self.get(raw)?;
+                Ok(Line { value: self.expr(value)?, condition: Some(self.condition(condition)?) })
+            }
+            _ => Ok(Line { value: self.expr(raw)?, condition: None }),
+        }
+    }
+
+    /// `({"dH": 0.75, "V": "top"}, 0.5)`: inputs and the expected value.
+    fn example(&self, raw: Raw<'a>) -> Result<Example> {
+        let (inputs, value): (RawMap<'a>, Raw<'a>) = self.get(raw)?;
+        let inputs =
+            inputs.0.iter().map(|(n, v)| Ok((self.word(*n)?, self.level_or_expr(*v)?))).collect::<Result<_>>()?;
+        Ok(Example { span: self.span(raw), inputs, value: self.level_or_expr(value)? })
+    }
+}
+
+#[derive(Deserialize)]
+enum CombinedRon<'a> {
+    #[serde(borrow)]
+    All(Vec<Raw<'a>>),
+    Any(Vec<Raw<'a>>),
+    Not(Raw<'a>),
+}
+
+#[derive(Deserialize)]
+enum FromRon<'a> {
+    From(#[serde(borrow)] Raw<'a>, RawMap<'a>),
+}
