@@ -2,5 +2,6 @@
 
 pub mod diag;
 pub mod eval;
+pub mod plan;
 pub mod program;
 pub mod table;

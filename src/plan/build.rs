@@ -1,0 +1,361 @@
+//! Builds plans.
+//!
+//! The one subtle part is laziness. A condition such as `n_top == both &&
+//! n_bottom == both` fetches its second input only if the first part holds, so
+//! a test that needs a fetch is taken apart into tests and fetches in the order
+//! in which the program would demand them. What is already known on the way
+//! removes tests that are decided.
+
+use std::collections::HashMap;
+
+use super::key::KeyLayout;
+use super::knowledge::Knowledge;
+use super::{Leaf, LookupPlace, Plan, Shape, Step, StepId};
+use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
+
+/// Most steps of a plan.
+const MAX_STEPS: usize = 200_000;
+/// Deepest chain of tests that depend on fetched inputs.
+const MAX_DEPTH: usize = 400;
+/// Most entries of a lookup in constants, and in a buffer.
+const MAX_CONSTANT_KEYS: u32 = 12;
+const MAX_BUFFER_KEYS: u32 = 24;
+
+type Result<T> = std::result::Result<T, String>;
+type Next<'a, 'p> = &'a dyn Fn(&mut Builder<'p>, &Knowledge) -> Result<StepId>;
+
+struct Builder<'p> {
+    program: &'p Program,
+    pool: Pool,
+    steps: Vec<Step>,
+    index: HashMap<Step, StepId>,
+    depth: usize,
+}
+
+/// The ordered chain of guards, as written.
+pub(super) fn ladder(program: &Program) -> Result<Plan<'_>> {
+    let mut builder = Builder::new(program);
+    let rows: Vec<(usize, CondId)> = program.rows.iter().enumerate().map(|(i, row)| (i, row.guard)).collect();
+    let root = builder.rows(&rows, &Knowledge::none(program))?;
+    Ok(builder.finish(Shape::Ladder, KeyLayout::new(program)?, Vec::new(), root))
+}
+
+/// The packed key selects the case, or the few that conditions on continuous
+/// and fetched inputs still have to decide between.
+pub(super) fn switch(program: &Program, shape: Shape) -> Result<Plan<'_>> {
+    let key = KeyLayout::new(program)?;
+    let limit = match shape {
+        Shape::Switch(LookupPlace::Buffer) => MAX_BUFFER_KEYS,
+        _ => MAX_CONSTANT_KEYS,
+    };
+    if key.bits() > limit {
+        return Err(format!(
+            "its key has {} bits, and the lookup of this plan has room for {limit}; {}",
+            key.bits(),
+            if limit == MAX_CONSTANT_KEYS { "use `switch_buffer` or `ladder`" } else { "use `ladder`" }
+        ));
+    }
+    let mut builder = Builder::new(program);
+    let mut arms: Vec<(Vec<(usize, CondId)>, Vec<LevelSet>)> = Vec::new();
+    let mut arm_index: HashMap<Vec<(usize, CondId)>, u16> = HashMap::new();
+    let mut lookup = Vec::with_capacity(program.states.count());
+    let mut levels = vec![0; program.inputs.len()];
+    for state in 0..program.states.count() {
+        program.states.write(state, &mut levels);
+        let rows = builder.rows_of_state(&levels);
+        let arm = match arm_index.get(&rows) {
+            Some(arm) => *arm,
+            None => {
+                let arm = u16::try_from(arms.len()).map_err(|_| "it has more than 65535 ways to go".to_owned())?;
+                arm_index.insert(rows.clone(), arm);
+                arms.push((rows, vec![LevelSet(0); program.inputs.len()]));
+                arm
+            }
+        };
+        for (input, _) in program.states.digits() {
+            arms[usize::from(arm)].1[input.index()].0 |= LevelSet::one(levels[input.index()]).0;
+        }
+        lookup.push(arm);
+    }
+    let mut steps = Vec::new();
+    for (rows, hull) in arms {
+        let mut known = Knowledge::none(program);
+        for (input, _) in program.states.digits() {
+            known.restrict(*input, hull[input.index()]);
+        }
+        steps.push(builder.rows(&rows, &known)?);
+    }
+    let root = builder.push(Step::Switch { arms: steps })?;
+    Ok(builder.finish(shape, key, lookup, root))
+}
+
+impl<'p> Builder<'p> {
+    fn new(program: &'p Program) -> Self {
+        Self { program, pool: program.pool.clone(), steps: Vec::new(), index: HashMap::new(), depth: 0 }
+    }
+
+    fn finish(self, shape: Shape, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
+        Plan { program: self.program, shape, pool: self.pool, key, lookup, steps: self.steps, root }
+    }
+
+    fn push(&mut self, step: Step) -> Result<StepId> {
+        if let Some(id) = self.index.get(&step) {
+            return Ok(*id);
+        }
+        if self.steps.len() >= MAX_STEPS {
+            return Err(format!("it would need more than {MAX_STEPS} steps"));
+        }
+        let id = StepId(self.steps.len() as u32);
+        self.steps.push(step.clone());
+        self.index.insert(step, id);
+        Ok(id)
+    }
+
+    fn test(&mut self, condition: CondId, then: StepId, other: StepId) -> Result<StepId> {
+        match self.pool.truth(condition) {
+            Some(true) => Ok(then),
+            Some(false) => Ok(other),
+            None if then == other => Ok(then),
+            None => self.push(Step::Test { condition, then, other }),
+        }
+    }
+
+    /// The rows that can be taken in a state, with what is left of their guards.
+    fn rows_of_state(&mut self, levels: &[u8]) -> Vec<(usize, CondId)> {
+        let program = self.program;
+        let mut rows = Vec::new();
+        let mut known = None;
+        for (index, row) in program.rows.iter().enumerate() {
+            match decide(program, row.guard, levels) {
+                Some(false) => {}
+                Some(true) => {
+                    rows.push((index, self.pool.always(true)));
+                    break;
+                }
+                None => {
+                    let known = known.get_or_insert_with(|| {
+                        let mut known = Knowledge::none(program);
+                        for (input, _) in program.states.digits() {
+                            known.restrict(*input, LevelSet::one(levels[input.index()]));
+                        }
+                        known
+                    });
+                    rows.push((index, known.cond(&mut self.pool, row.guard)));
+                }
+            }
+        }
+        rows
+    }
+
+    fn missing(&self, inputs: InputSet, known: &Knowledge) -> InputSet {
+        inputs.and(self.program.fetched).minus(known.fetched)
+    }
+
+    /// A chain of rows, then the default.
+    fn rows(&mut self, rows: &[(usize, CondId)], known: &Knowledge) -> Result<StepId> {
+        self.descend(|me| {
+            // Guards that need nothing fetched are tested as they stand, and the
+            // chain is built from its end, so that its length costs no stack.
+            let free = rows
+                .iter()
+                .position(|(_, guard)| !me.missing(me.pool.cond_facts(*guard).inputs, known).is_empty())
+                .unwrap_or(rows.len());
+            let mut next = match rows.get(free) {
+                None => {
+                    let program = me.program;
+                    me.leaf(None, None, program.default.clone(), known)?
+                }
+                Some((row, guard)) => {
+                    let (row, rest) = (*row, &rows[free + 1..]);
+                    let yes = |me: &mut Self, known: &Knowledge| me.lines(row, 0, known);
+                    // Later guards stay as written: only what was fetched is remembered.
+                    let no = |me: &mut Self, after: &Knowledge| {
+                        me.rows(rest, &known.with_fetched(after.fetched))
+                    };
+                    me.branch(*guard, known, &yes, &no)?
+                }
+            };
+            for (row, guard) in rows[..free].iter().rev() {
+                let inside = known.with(&me.pool, *guard, true);
+                let then = me.lines(*row, 0, &inside)?;
+                next = me.test(*guard, then, next)?;
+            }
+            Ok(next)
+        })
+    }
+
+    fn descend(&mut self, inner: impl FnOnce(&mut Self) -> Result<StepId>) -> Result<StepId> {
+        if self.depth >= MAX_DEPTH {
+            return Err(format!("tests of fetched inputs nest deeper than {MAX_DEPTH}"));
+        }
+        self.depth += 1;
+        let result = inner(self);
+        self.depth -= 1;
+        result
+    }
+
+    /// The lines of a row, from number `from` on.
+    fn lines(&mut self, row: usize, from: usize, known: &Knowledge) -> Result<StepId> {
+        let program = self.program;
+        let Some(line) = program.rows[row].lines.get(from) else {
+            return self.leaf(Some(row), None, program.default.clone(), known);
+        };
+        let yes = |me: &mut Self, known: &Knowledge| me.leaf(Some(row), Some(from), line.values.clone(), known);
+        let no = |me: &mut Self, known: &Knowledge| me.lines(row, from + 1, known);
+        self.branch(line.condition, known, &yes, &no)
+    }
+
+    /// A result, with everything fetched that it needs, and nothing else.
+    fn leaf(
+        &mut self,
+        row: Option<usize>,
+        line: Option<usize>,
+        values: Vec<ExprId>,
+        known: &Knowledge,
+    ) -> Result<StepId> {
+        let values: Vec<ExprId> = values.into_iter().map(|value| known.expr(&mut self.pool, value)).collect();
+        if let Some(condition) = values.iter().find_map(|value| self.lazy_choice(*value, known)) {
+            let go = |me: &mut Self, known: &Knowledge| me.leaf(row, line, values.clone(), known);
+            return self.branch(condition, known, &go, &go);
+        }
+        let inputs = values.iter().fold(InputSet::default(), |all, v| all.or(self.pool.expr_facts(*v).inputs));
+        let missing: Vec<InputId> = self.missing(inputs, known).iter().collect();
+        let mut step = self.push(Step::Leaf(Leaf { row, line, values }))?;
+        for input in missing.into_iter().rev() {
+            step = self.push(Step::Fetch { input, next: step })?;
+        }
+        Ok(step)
+    }
+
+    /// The outermost choice in an expression that decides about a fetch.
+    fn lazy_choice(&self, expr: ExprId, known: &Knowledge) -> Option<CondId> {
+        if self.missing(self.pool.expr_facts(expr).inputs, known).is_empty() {
+            return None;
+        }
+        match self.pool.node(expr) {
+            Node::Const(_) | Node::Input(_) | Node::Result => None,
+            Node::Unary(_, a) => self.lazy_choice(a, known),
+            Node::Binary(_, a, b) => self.lazy_choice(a, known).or_else(|| self.lazy_choice(b, known)),
+            Node::Ternary(_, a, b, c) => [a, b, c].into_iter().find_map(|e| self.lazy_choice(e, known)),
+            Node::Select(condition, ..) => Some(condition),
+        }
+    }
+
+    /// Tests a condition, fetching what it needs in the order it needs it.
+    fn branch(
+        &mut self,
+        condition: CondId,
+        known: &Knowledge,
+        yes: Next<'_, 'p>,
+        no: Next<'_, 'p>,
+    ) -> Result<StepId> {
+        self.descend(|me| me.branch_inner(condition, known, yes, no))
+    }
+
+    fn branch_inner(
+        &mut self,
+        condition: CondId,
+        known: &Knowledge,
+        yes: Next<'_, 'p>,
+        no: Next<'_, 'p>,
+    ) -> Result<StepId> {
+        let condition = known.cond(&mut self.pool, condition);
+        match self.pool.truth(condition) {
+            Some(true) => return yes(self, known),
+            Some(false) => return no(self, known),
+            None => {}
+        }
+        let missing = self.missing(self.pool.cond_facts(condition).inputs, known);
+        if missing.is_empty() {
+            let then = yes(self, &known.with(&self.pool, condition, true))?;
+            let other = no(self, &known.with(&self.pool, condition, false))?;
+            return self.test(condition, then, other);
+        }
+        match self.pool.cond(condition).clone() {
+            Cond::Const(_) => yes(self, known),
+            Cond::Not(inner) => self.branch(inner, known, no, yes),
+            Cond::And(parts) => {
+                let (first, rest) = self.split(&parts, known, |pool, parts| pool.and(parts));
+                self.branch(first, known, &|me, known| me.branch(rest, known, yes, no), no)
+            }
+            Cond::Or(parts) => {
+                let (first, rest) = self.split(&parts, known, |pool, parts| pool.or(parts));
+                self.branch(first, known, yes, &|me, known| me.branch(rest, known, yes, no))
+            }
+            Cond::If(c, a, b) => self.branch(
+                c,
+                known,
+                &|me, known| me.branch(a, known, yes, no),
+                &|me, known| me.branch(b, known, yes, no),
+            ),
+            Cond::Level(input, _) => self.fetch(input, known, condition, yes, no),
+            Cond::Compare(_, a, b) => match self.lazy_choice(a, known).or_else(|| self.lazy_choice(b, known)) {
+                Some(choice) => {
+                    let go = |me: &mut Self, known: &Knowledge| me.branch(condition, known, yes, no);
+                    self.branch(choice, known, &go, &go)
+                }
+                None => match missing.iter().next() {
+                    Some(input) => self.fetch(input, known, condition, yes, no),
+                    None => yes(self, known),
+                },
+            },
+        }
+    }
+
+    /// Parts that need no fetch are tested together; otherwise the first part comes alone.
+    fn split(
+        &mut self,
+        parts: &[CondId],
+        known: &Knowledge,
+        join: fn(&mut Pool, Vec<CondId>) -> CondId,
+    ) -> (CondId, CondId) {
+        let free = parts
+            .iter()
+            .take_while(|part| self.missing(self.pool.cond_facts(**part).inputs, known).is_empty())
+            .count()
+            .clamp(1, parts.len() - 1);
+        (join(&mut self.pool, parts[..free].to_vec()), join(&mut self.pool, parts[free..].to_vec()))
+    }
+
+    fn fetch(
+        &mut self,
+        input: InputId,
+        known: &Knowledge,
+        condition: CondId,
+        yes: Next<'_, 'p>,
+        no: Next<'_, 'p>,
+    ) -> Result<StepId> {
+        let next = self.branch(condition, &known.with_fetched(InputSet::one(input)), yes, no)?;
+        self.push(Step::Fetch { input, next })
+    }
+}
+
+/// Whether a condition holds in a state; `None` if that depends on other inputs.
+fn decide(program: &Program, condition: CondId, levels: &[u8]) -> Option<bool> {
+    match program.pool.cond(condition) {
+        Cond::Const(value) => Some(*value),
+        Cond::Level(input, _) if program.fetched.contains(*input) => None,
+        Cond::Level(input, set) => Some(set.contains(levels[input.index()])),
+        Cond::Compare(..) => None,
+        Cond::Not(a) => decide(program, *a, levels).map(|value| !value),
+        Cond::And(parts) => junction(program, parts, levels, false),
+        Cond::Or(parts) => junction(program, parts, levels, true),
+        Cond::If(c, a, b) => match decide(program, *c, levels) {
+            Some(true) => decide(program, *a, levels),
+            Some(false) => decide(program, *b, levels),
+            None => None,
+        },
+    }
+}
+
+fn junction(program: &Program, parts: &[CondId], levels: &[u8], deciding: bool) -> Option<bool> {
+    let mut all_known = true;
+    for part in parts {
+        match decide(program, *part, levels) {
+            Some(value) if value == deciding => return Some(deciding),
+            Some(_) => {}
+            None => all_known = false,
+        }
+    }
+    all_known.then_some(!deciding)
+}

@@ -1,0 +1,348 @@
+//! Normal forms over the reals: two expressions with the same normal form are
+//! equal wherever they are defined.
+//!
+//! A normal form is a minimum of maxima of affine forms with exact rational
+//! coefficients. Sums and multiples of such forms are such forms again, and
+//! the free distributive law makes the form unique up to order; everything
+//! that is not affine, minimum or maximum is an opaque term over normal forms.
+
+use std::collections::{BTreeMap, HashMap};
+
+use num_rational::Ratio;
+use num_traits::{CheckedAdd, CheckedMul, Signed, Zero};
+
+use crate::program::{BinaryOp, ExprId, InputId, Node, Pool, TernaryOp, UnaryOp};
+
+type Rational = Ratio<i128>;
+
+/// Most affine forms in one normal form; beyond it the form is given up.
+const MAX_FORMS: usize = 256;
+
+/// Number of a normal form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct NormalId(u32);
+
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+enum Term {
+    Input(InputId),
+    /// A constant without an exact rational in range.
+    Constant(u64),
+    Unary(UnaryOp, NormalId),
+    Binary(BinaryOp, NormalId, NormalId),
+    Ternary(TernaryOp, [NormalId; 3]),
+}
+
+/// A constant plus multiples of terms.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Affine {
+    terms: BTreeMap<Term, Rational>,
+    constant: Rational,
+}
+
+/// A minimum of maxima; both lists are sorted and not empty.
+type Lattice = Vec<Vec<Affine>>;
+
+/// Makes normal forms. Selections must have been resolved before.
+#[derive(Debug, Default)]
+pub(super) struct Normaliser {
+    forms: Vec<Lattice>,
+    index: HashMap<Lattice, NormalId>,
+    memo: HashMap<ExprId, Option<NormalId>>,
+}
+
+impl Normaliser {
+    /// The normal form of an expression without selections, unless it gets too large.
+    pub(super) fn normal(&mut self, pool: &Pool, expr: ExprId) -> Option<NormalId> {
+        if let Some(done) = self.memo.get(&expr) {
+            return *done;
+        }
+        let result = self.lattice(pool, expr).map(|form| self.intern(form));
+        self.memo.insert(expr, result);
+        result
+    }
+
+    fn intern(&mut self, form: Lattice) -> NormalId {
+        if let Some(id) = self.index.get(&form) {
+            return *id;
+        }
+        let id = NormalId(self.forms.len() as u32);
+        self.forms.push(form.clone());
+        self.index.insert(form, id);
+        id
+    }
+
+    fn get(&mut self, pool: &Pool, expr: ExprId) -> Option<Lattice> {
+        let id = self.normal(pool, expr)?;
+        Some(self.forms[id.0 as usize].clone())
+    }
+
+    fn lattice(&mut self, pool: &Pool, expr: ExprId) -> Option<Lattice> {
+        match pool.node(expr) {
+            Node::Const(number) => Some(constant(number.get())),
+            Node::Input(input) => Some(single(Term::Input(input))),
+            Node::Result | Node::Select(..) => None,
+            Node::Unary(op, a) => {
+                let form = self.get(pool, a)?;
+                match op {
+                    UnaryOp::Negate => scale(&form, -one()),
+                    UnaryOp::Abs => maximum(form.clone(), scale(&form, -one())?),
+                    UnaryOp::Saturate => maximum(minimum(form, constant(1.0))?, constant(0.0)),
+                    _ => Some(single(Term::Unary(op, self.intern(form)))),
+                }
+            }
+            Node::Binary(op, a, b) => {
+                let (left, right) = (self.get(pool, a)?, self.get(pool, b)?);
+                match op {
+                    BinaryOp::Add => sum(&left, &right),
+                    BinaryOp::Subtract => sum(&left, &scale(&right, -one())?),
+                    BinaryOp::Multiply => self.product(left, right),
+                    BinaryOp::Divide => match value(&right) {
+                        Some(divisor) if !divisor.is_zero() => scale(&left, divisor.recip()),
+                        _ => Some(self.opaque(op, left, right)),
+                    },
+                    BinaryOp::Min => minimum(left, right),
+                    BinaryOp::Max => maximum(left, right),
+                    _ => Some(self.opaque(op, left, right)),
+                }
+            }
+            Node::Ternary(op, a, b, c) => {
+                let (x, y, z) = (self.get(pool, a)?, self.get(pool, b)?, self.get(pool, c)?);
+                match op {
+                    TernaryOp::Clamp => minimum(maximum(x, y)?, z),
+                    TernaryOp::Fma => {
+                        let product = self.product(x, y)?;
+                        sum(&product, &z)
+                    }
+                    TernaryOp::Mix => {
+                        let rest = sum(&constant(1.0), &scale(&z, -one())?)?;
+                        let (first, second) = (self.product(x, rest)?, self.product(y, z)?);
+                        sum(&first, &second)
+                    }
+                    TernaryOp::Smoothstep => {
+                        let ids = [self.intern(x), self.intern(y), self.intern(z)];
+                        Some(single(Term::Ternary(op, ids)))
+                    }
+                }
+            }
+        }
+    }
+
+    fn opaque(&mut self, op: BinaryOp, left: Lattice, right: Lattice) -> Lattice {
+        let (a, b) = (self.intern(left), self.intern(right));
+        single(Term::Binary(op, a, b))
+    }
+
+    fn product(&mut self, left: Lattice, right: Lattice) -> Option<Lattice> {
+        match (value(&left), value(&right)) {
+            (Some(factor), _) => scale(&right, factor),
+            (_, Some(factor)) => scale(&left, factor),
+            (None, None) => {
+                let (a, b) = (self.intern(left), self.intern(right));
+                Some(single(Term::Binary(BinaryOp::Multiply, a.min(b), a.max(b))))
+            }
+        }
+    }
+}
+
+fn one() -> Rational {
+    Rational::from_integer(1)
+}
+
+/// The exact rational of a double, if numerator and denominator are moderate.
+fn rational(value: f64) -> Option<Rational> {
+    if value == 0.0 {
+        return Some(Rational::zero());
+    }
+    let bits = value.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i32;
+    if exponent == 0 || exponent == 0x7ff {
+        return None;
+    }
+    let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52) * if value < 0.0 { -1 } else { 1 };
+    let power = exponent - 1075;
+    match power {
+        0..=40 => Some(Rational::from_integer(mantissa << power)),
+        -100..=-1 => {
+            let shift = (-power).min(mantissa.trailing_zeros() as i32);
+            let rest = -power - shift;
+            (rest <= 60).then(|| Rational::new(mantissa >> shift, 1 << rest))
+        }
+        _ => None,
+    }
+}
+
+fn constant(value: f64) -> Lattice {
+    match rational(value) {
+        Some(constant) => vec![vec![Affine { terms: BTreeMap::new(), constant }]],
+        None => single(Term::Constant(value.to_bits())),
+    }
+}
+
+fn single(term: Term) -> Lattice {
+    vec![vec![Affine { terms: BTreeMap::from([(term, one())]), constant: Rational::zero() }]]
+}
+
+/// The number a form is, if it is one.
+fn value(form: &Lattice) -> Option<Rational> {
+    match form.as_slice() {
+        [clause] => match clause.as_slice() {
+            [affine] if affine.terms.is_empty() => Some(affine.constant),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+impl Affine {
+    fn plus(&self, other: &Affine) -> Option<Affine> {
+        let mut terms = self.terms.clone();
+        for (term, factor) in &other.terms {
+            let sum = terms.get(term).copied().unwrap_or_else(Rational::zero).checked_add(factor)?;
+            if sum.is_zero() {
+                terms.remove(term);
+            } else {
+                terms.insert(term.clone(), sum);
+            }
+        }
+        Some(Affine { terms, constant: self.constant.checked_add(&other.constant)? })
+    }
+
+    fn times(&self, factor: Rational) -> Option<Affine> {
+        let terms = self.terms.iter().map(|(term, f)| Some((term.clone(), f.checked_mul(&factor)?)));
+        Some(Affine { terms: terms.collect::<Option<_>>()?, constant: self.constant.checked_mul(&factor)? })
+    }
+
+    /// Whether this is at least `other` everywhere: same terms, no smaller constant.
+    fn dominates(&self, other: &Affine) -> bool {
+        self.terms == other.terms && self.constant >= other.constant
+    }
+}
+
+/// The one form of a minimum of maxima: no affine form or clause that another makes superfluous.
+fn tidy(form: Lattice) -> Option<Lattice> {
+    let mut clauses: Vec<Vec<Affine>> = Vec::new();
+    for clause in form {
+        let mut kept: Vec<Affine> = Vec::new();
+        for affine in clause {
+            if kept.iter().any(|k| k.dominates(&affine)) {
+                continue;
+            }
+            kept.retain(|k| !affine.dominates(k));
+            kept.push(affine);
+        }
+        kept.sort();
+        // A clause is superfluous if it is everywhere at least as large as another one.
+        let at_least = |big: &[Affine], small: &[Affine]| small.iter().all(|s| big.iter().any(|b| b.dominates(s)));
+        if clauses.iter().any(|c| at_least(&kept, c)) {
+            continue;
+        }
+        clauses.retain(|c| !at_least(c, &kept));
+        clauses.push(kept);
+    }
+    clauses.sort();
+    (clauses.iter().map(Vec::len).sum::<usize>() <= MAX_FORMS).then_some(clauses)
+}
+
+/// Combines every affine form of one side with every one of the other.
+fn sum(left: &Lattice, right: &Lattice) -> Option<Lattice> {
+    if left.len() * right.len() > MAX_FORMS {
+        return None;
+    }
+    let mut form = Vec::new();
+    for a in left {
+        for b in right {
+            let clause = a.iter().flat_map(|x| b.iter().map(move |y| x.plus(y)));
+            form.push(clause.collect::<Option<Vec<_>>>()?);
+        }
+    }
+    tidy(form)
+}
+
+fn scale(form: &Lattice, factor: Rational) -> Option<Lattice> {
+    if factor.is_zero() {
+        return Some(constant(0.0));
+    }
+    let scaled: Option<Lattice> =
+        form.iter().map(|clause| clause.iter().map(|affine| affine.times(factor)).collect()).collect();
+    let scaled = scaled?;
+    if factor.is_positive() {
+        return tidy(scaled);
+    }
+    // Minimum and maximum change places; distribute to get a minimum of maxima again.
+    let mut result: Lattice = vec![Vec::new()];
+    for clause in scaled {
+        let mut next = Vec::new();
+        for partial in &result {
+            for affine in &clause {
+                let mut longer = partial.clone();
+                longer.push(affine.clone());
+                next.push(longer);
+            }
+        }
+        if next.len() > MAX_FORMS {
+            return None;
+        }
+        result = next;
+    }
+    tidy(result)
+}
+
+fn minimum(left: Lattice, right: Lattice) -> Option<Lattice> {
+    tidy(left.into_iter().chain(right).collect())
+}
+
+fn maximum(left: Lattice, right: Lattice) -> Option<Lattice> {
+    if left.len() * right.len() > MAX_FORMS {
+        return None;
+    }
+    let pairs = left.iter().flat_map(|a| right.iter().map(move |b| a.iter().chain(b).cloned().collect()));
+    tidy(pairs.collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::InputId;
+
+    struct Forms {
+        pool: Pool,
+        normaliser: Normaliser,
+    }
+
+    impl Forms {
+        fn equal(&mut self, a: ExprId, b: ExprId) -> bool {
+            let a = self.normaliser.normal(&self.pool, a).expect("small");
+            a == self.normaliser.normal(&self.pool, b).expect("small")
+        }
+    }
+
+    #[test]
+    fn complement_of_a_clamped_maximum_is_a_clamped_minimum() {
+        let mut f = Forms { pool: Pool::default(), normaliser: Normaliser::default() };
+        let p = &mut f.pool;
+        let (x, y, d) = (p.input(InputId::new(0)), p.input(InputId::new(1)), p.input(InputId::new(2)));
+        let (zero, one) = (p.number(0.0), p.number(1.0));
+        // 1 - clamp(max(d - x, 1 - y)) and clamp(min(1 + x - d, y))
+        let a = p.binary(BinaryOp::Subtract, d, x);
+        let b = p.binary(BinaryOp::Subtract, one, y);
+        let m = p.binary(BinaryOp::Max, a, b);
+        let m = p.ternary(TernaryOp::Clamp, m, zero, one);
+        let left = p.binary(BinaryOp::Subtract, one, m);
+        let c = p.binary(BinaryOp::Add, one, x);
+        let c = p.binary(BinaryOp::Subtract, c, d);
+        let n = p.binary(BinaryOp::Min, c, y);
+        let right = p.unary(UnaryOp::Saturate, n);
+        assert!(f.equal(left, right));
+        let wrong = f.pool.binary(BinaryOp::Min, c, x);
+        let wrong = f.pool.unary(UnaryOp::Saturate, wrong);
+        assert!(!f.equal(left, wrong));
+    }
+
+    #[test]
+    fn rationals_are_exact() {
+        assert_eq!(rational(0.375), Some(Rational::new(3, 8)));
+        assert_eq!(rational(-6.0), Some(Rational::from_integer(-6)));
+        assert_eq!(rational(0.1), Some(Rational::new(0.1_f64.mul_add(36028797018963968.0, 0.0) as i128, 1 << 55)));
+        assert_eq!(rational(1e300), None);
+    }
+}

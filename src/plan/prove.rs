@@ -1,0 +1,482 @@
+//! The gate that every plan passes: plan ≡ program, state by state, symbolically.
+//!
+//! For each state of the discrete inputs the program is run symbolically.
+//! Whatever the state does not decide (the level of a fetched input, a
+//! comparison of numbers) is asked of an [`Oracle`], which remembers its
+//! answers; the plan then runs on the same answers. Every sequence of answers
+//! is gone through, so all paths are covered. On each path
+//!
+//! - both must take the same row, and the same line of it;
+//! - the plan fetches an input at most once, uses none that it has not
+//!   fetched, and fetches none that the program does not;
+//! - the results must be the same expression (then they agree in every bit) or
+//!   have the same normal form over the reals (then the difference in `f32` is
+//!   bounded).
+//!
+//! The prover shares no code with the planner. It treats comparisons that look
+//! different as independent, which can refuse a right plan but never accept a
+//! wrong one.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use super::normal::Normaliser;
+use super::{Leaf, Plan, Step, rounding};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::program::print::Printer;
+use crate::program::{
+    Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program, Value,
+};
+
+/// What a proof found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// Discrete states gone through.
+    pub states: usize,
+    /// Paths gone through: states, times the answers of fetches and comparisons.
+    pub paths: usize,
+    /// Paths on which the result is the same expression.
+    pub identical: usize,
+    /// Largest difference in `f32` on the other paths; `None` if no bound is known.
+    pub rounding: Option<f64>,
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "equal to the table on {} states, {} paths; ", self.states, self.paths)?;
+        if self.identical == self.paths {
+            return write!(f, "the same operations on each");
+        }
+        write!(f, "the same operations on {}, on the others equal over the reals", self.identical)?;
+        match self.rounding {
+            Some(bound) => write!(f, " and at most {bound:.1e} apart in f32"),
+            None => write!(f, " with no bound on the f32 difference"),
+        }
+    }
+}
+
+/// Where a plan and its program differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counterexample {
+    /// Which shape of plan.
+    pub shape: &'static str,
+    /// The state, the levels of fetched inputs, and the outcome of comparisons, in table notation.
+    pub state: Vec<String>,
+    /// What differs.
+    pub reason: String,
+    /// The row that the program takes, if any.
+    pub row: Option<usize>,
+}
+
+impl Counterexample {
+    /// The counterexample as a diagnostic at the row concerned.
+    pub fn into_failure(self, program: &Program) -> Failure {
+        let span = self.row.map_or(program.hit_policy_span, |row| program.rows[row].span);
+        let diagnostic = Diagnostic::error(codes::NOT_PROVED, format!("the plan `{}` is not equal to the table", self.shape))
+            .at(span, self.reason)
+            .help(format!("in the state {}", self.state.join(", ")))
+            .help("nothing was emitted; please report this: a plan must never differ");
+        Failure::new(program.source.clone(), diagnostic)
+    }
+}
+
+/// Proves a plan.
+///
+/// # Errors
+/// With the first difference found.
+pub fn prove(plan: &Plan<'_>) -> Result<Proof, Box<Counterexample>> {
+    let program = plan.program;
+    let mut prover = Prover {
+        plan,
+        pool: plan.pool.clone(),
+        normaliser: Normaliser::default(),
+        oracle: Oracle::new(program),
+        identical: 0,
+        paths: 0,
+        rounding: Some(0.0),
+    };
+    for state in 0..program.states.count() {
+        program.states.write(state, &mut prover.oracle.levels);
+        prover.oracle.choices.clear();
+        loop {
+            prover.path(state)?;
+            if !prover.oracle.advance() {
+                break;
+            }
+        }
+    }
+    Ok(Proof {
+        states: program.states.count(),
+        paths: prover.paths,
+        identical: prover.identical,
+        rounding: prover.rounding,
+    })
+}
+
+/// Something that a state leaves open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Question {
+    Level(InputId),
+    Compare(Comparison, ExprId, ExprId),
+}
+
+/// Answers questions, the same one always the same way, until told to advance.
+struct Oracle {
+    /// Level by input; fetched inputs are set when first asked.
+    levels: Vec<u8>,
+    /// Questions asked so far, with the current answer and the number of answers.
+    choices: Vec<(Question, u8, u8)>,
+}
+
+impl Oracle {
+    fn new(program: &Program) -> Self {
+        Self { levels: vec![0; program.inputs.len()], choices: Vec::new() }
+    }
+
+    fn answer(&mut self, question: Question, count: u8) -> u8 {
+        if let Some((_, answer, _)) = self.choices.iter().find(|(q, ..)| *q == question) {
+            return *answer;
+        }
+        self.choices.push((question, 0, count));
+        0
+    }
+
+    /// Moves on to the next sequence of answers; false if that was the last.
+    fn advance(&mut self) -> bool {
+        while let Some((_, answer, count)) = self.choices.last_mut() {
+            *answer += 1;
+            if *answer < *count {
+                return true;
+            }
+            self.choices.pop();
+        }
+        false
+    }
+}
+
+struct Prover<'a, 'p> {
+    plan: &'a Plan<'p>,
+    /// The plan's terms, and those that resolving selections makes of them.
+    pool: Pool,
+    normaliser: Normaliser,
+    oracle: Oracle,
+    identical: usize,
+    paths: usize,
+    rounding: Option<f64>,
+}
+
+/// A run of program or plan on one path.
+struct Run {
+    row: Option<usize>,
+    line: Option<usize>,
+    values: Vec<ExprId>,
+    fetched: InputSet,
+}
+
+impl Prover<'_, '_> {
+    fn path(&mut self, state: usize) -> Result<(), Box<Counterexample>> {
+        let want = self.run_program();
+        // The plan may ask further questions; they then become part of the path.
+        let got = self.run_plan(state).map_err(|reason| self.differs(reason, &want))?;
+        self.paths += 1;
+        if (want.row, want.line) != (got.row, got.line) {
+            let name = |run: &Run| self.name(run);
+            let reason = format!("the table takes {}, the plan {}", name(&want), name(&got));
+            return Err(self.differs(reason, &want));
+        }
+        if let Some(input) = got.fetched.minus(want.fetched).iter().next() {
+            let input = &self.plan.program.inputs[input.index()].name;
+            return Err(self.differs(format!("the plan fetches `{input}`, which the table does not need here"), &want));
+        }
+        let mut identical = true;
+        for (a, b) in want.values.iter().zip(&got.values) {
+            if a == b {
+                continue;
+            }
+            identical = false;
+            let equal = match (self.normaliser.normal(&self.pool, *a), self.normaliser.normal(&self.pool, *b)) {
+                (Some(a), Some(b)) => a == b,
+                _ => false,
+            };
+            if !equal {
+                let printer = Printer { pool: &self.pool, inputs: &self.plan.program.inputs };
+                let reason = format!("the table gives {}, the plan {}", printer.expr(*a), printer.expr(*b));
+                return Err(self.differs(reason, &want));
+            }
+            let program = self.plan.program;
+            let bound = |expr| rounding::error(program, &self.pool, expr);
+            self.rounding = match (self.rounding, bound(*a), bound(*b)) {
+                (Some(worst), Some(a), Some(b)) => Some(worst.max(a + b)),
+                _ => None,
+            };
+        }
+        self.identical += usize::from(identical);
+        Ok(())
+    }
+
+    fn name(&self, run: &Run) -> String {
+        let row = match run.row {
+            Some(row) => format!("case {}", self.plan.program.rows[row].id),
+            None => return "the default".to_owned(),
+        };
+        match run.line {
+            Some(line) => format!("{row}, line {}", line + 1),
+            None => format!("{row} with the default value"),
+        }
+    }
+
+    fn differs(&self, reason: String, want: &Run) -> Box<Counterexample> {
+        let program = self.plan.program;
+        let mut state = Vec::new();
+        for (input, _) in program.states.digits() {
+            let declared = &program.inputs[input.index()];
+            let level = self.oracle.levels[input.index()];
+            state.push(format!("{} = {}", declared.name, declared.show(Value::Level(level))));
+        }
+        let printer = Printer { pool: &self.pool, inputs: &program.inputs };
+        for (question, answer, _) in &self.oracle.choices {
+            state.push(match question {
+                Question::Level(input) => {
+                    let declared = &program.inputs[input.index()];
+                    format!("{} = {}", declared.name, declared.show(Value::Level(*answer)))
+                }
+                Question::Compare(op, a, b) => {
+                    let symbol = match op {
+                        Comparison::Less => "<",
+                        Comparison::LessEqual => "<=",
+                        Comparison::Equal => "==",
+                    };
+                    let truth = if *answer == 0 { "holds" } else { "does not hold" };
+                    format!("{} {symbol} {} {truth}", printer.expr(*a), printer.expr(*b))
+                }
+            });
+        }
+        Box::new(Counterexample { shape: self.plan.shape.name(), state, reason, row: want.row })
+    }
+
+    /// The program, by the definition of its meaning.
+    fn run_program(&mut self) -> Run {
+        let program = self.plan.program;
+        let mut fetched = InputSet::default();
+        for (index, row) in program.rows.iter().enumerate() {
+            if !self.holds(row.guard, &mut fetched) {
+                continue;
+            }
+            for (number, line) in row.lines.iter().enumerate() {
+                if self.holds(line.condition, &mut fetched) {
+                    let values = self.resolve_all(&line.values, &mut fetched);
+                    return Run { row: Some(index), line: Some(number), values, fetched };
+                }
+            }
+            let values = self.resolve_all(&program.default, &mut fetched);
+            return Run { row: Some(index), line: None, values, fetched };
+        }
+        let values = self.resolve_all(&program.default, &mut fetched);
+        Run { row: None, line: None, values, fetched }
+    }
+
+    /// The plan, step by step, with the discipline of fetching checked.
+    fn run_plan(&mut self, state: usize) -> Result<Run, String> {
+        let plan = self.plan;
+        let mut fetched = InputSet::default();
+        let mut at = plan.root();
+        loop {
+            match plan.step(at) {
+                Step::Switch { arms } => {
+                    let arm = plan.lookup.get(state).and_then(|arm| arms.get(usize::from(*arm)));
+                    at = *arm.ok_or("the plan's lookup has no way for this state")?;
+                }
+                Step::Fetch { input, next } => {
+                    if fetched.contains(*input) || !plan.program.fetched.contains(*input) {
+                        return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
+                    }
+                    fetched = fetched.or(InputSet::one(*input));
+                    at = *next;
+                }
+                Step::Test { condition, then, other } => {
+                    self.only_fetched(plan.pool.cond_facts(*condition).inputs, fetched)?;
+                    at = if self.holds(*condition, &mut InputSet::default()) { *then } else { *other };
+                }
+                Step::Leaf(Leaf { row, line, values }) => {
+                    for value in values {
+                        self.only_fetched(plan.pool.expr_facts(*value).inputs, fetched)?;
+                    }
+                    let values = self.resolve_all(values, &mut InputSet::default());
+                    return Ok(Run { row: *row, line: *line, values, fetched });
+                }
+            }
+        }
+    }
+
+    fn only_fetched(&self, inputs: InputSet, fetched: InputSet) -> Result<(), String> {
+        match inputs.and(self.plan.program.fetched).minus(fetched).iter().next() {
+            None => Ok(()),
+            Some(input) => {
+                Err(format!("the plan uses `{}` without fetching it", self.plan.program.inputs[input.index()].name))
+            }
+        }
+    }
+
+    fn level(&mut self, input: InputId, fetched: &mut InputSet) -> u8 {
+        if !self.plan.program.fetched.contains(input) {
+            return self.oracle.levels[input.index()];
+        }
+        *fetched = fetched.or(InputSet::one(input));
+        let count = self.plan.program.levels(input).map_or(1, |levels| levels.count());
+        self.oracle.answer(Question::Level(input), count as u8)
+    }
+
+    fn holds(&mut self, condition: CondId, fetched: &mut InputSet) -> bool {
+        match self.pool.cond(condition) {
+            Cond::Const(value) => *value,
+            Cond::Level(input, levels) => {
+                let (input, levels): (InputId, LevelSet) = (*input, *levels);
+                levels.contains(self.level(input, fetched))
+            }
+            Cond::Compare(op, a, b) => {
+                let (op, a, b) = (*op, *a, *b);
+                let (a, b) = (self.resolve(a, fetched), self.resolve(b, fetched));
+                match (self.pool.constant(a), self.pool.constant(b)) {
+                    (Some(a), Some(b)) => op.holds(a, b),
+                    _ => self.oracle.answer(Question::Compare(op, a, b), 2) == 0,
+                }
+            }
+            Cond::Not(a) => {
+                let a = *a;
+                !self.holds(a, fetched)
+            }
+            Cond::And(parts) => {
+                let parts = parts.clone();
+                parts.into_iter().all(|part| self.holds(part, fetched))
+            }
+            Cond::Or(parts) => {
+                let parts = parts.clone();
+                parts.into_iter().any(|part| self.holds(part, fetched))
+            }
+            Cond::If(c, a, b) => {
+                let (c, a, b) = (*c, *a, *b);
+                if self.holds(c, fetched) { self.holds(a, fetched) } else { self.holds(b, fetched) }
+            }
+        }
+    }
+
+    fn resolve_all(&mut self, values: &[ExprId], fetched: &mut InputSet) -> Vec<ExprId> {
+        values.iter().map(|value| self.resolve(*value, fetched)).collect()
+    }
+
+    /// An expression with every selection decided by the oracle, and nothing else changed.
+    fn resolve(&mut self, expr: ExprId, fetched: &mut InputSet) -> ExprId {
+        self.resolve_memo(expr, fetched, &mut HashMap::new())
+    }
+
+    fn resolve_memo(&mut self, expr: ExprId, fetched: &mut InputSet, memo: &mut HashMap<ExprId, ExprId>) -> ExprId {
+        let node = self.pool.node(expr);
+        if matches!(node, Node::Const(_)) {
+            return expr;
+        }
+        if let Some(done) = memo.get(&expr) {
+            return *done;
+        }
+        let result = match node {
+            Node::Const(_) | Node::Result => expr,
+            Node::Input(input) => {
+                if self.plan.program.fetched.contains(input) {
+                    *fetched = fetched.or(InputSet::one(input));
+                }
+                expr
+            }
+            Node::Unary(op, a) => {
+                let a = self.resolve_memo(a, fetched, memo);
+                self.pool.unary(op, a)
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
+                self.pool.binary(op, a, b)
+            }
+            Node::Ternary(op, a, b, c) => {
+                let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
+                let c = self.resolve_memo(c, fetched, memo);
+                self.pool.ternary(op, a, b, c)
+            }
+            Node::Select(c, a, b) => {
+                let chosen = if self.holds(c, fetched) { a } else { b };
+                self.resolve_memo(chosen, fetched, memo)
+            }
+        };
+        memo.insert(expr, result);
+        result
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{LookupPlace, Shape};
+
+    const TABLES: [&str; 2] = ["tables/smsr.ron", "tables/rsmss.ron"];
+
+    fn program(path: &str) -> Program {
+        Program::read(path).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    #[test]
+    fn the_tables_are_proved_in_every_shape() {
+        for table in TABLES {
+            let program = program(table);
+            for shape in Shape::ALL {
+                let proved = Plan::proved(&program, shape).unwrap_or_else(|e| panic!("{e}"));
+                assert_eq!(proved.proof().states, program.states.count());
+                assert_eq!(proved.proof().identical, proved.proof().paths, "{table} {shape}");
+            }
+        }
+    }
+
+    /// Every single change of a leaf, a test or the lookup is refused.
+    #[test]
+    fn broken_plans_are_refused_with_a_counterexample() {
+        for table in TABLES {
+            let program = program(table);
+            for shape in [Shape::Ladder, Shape::Switch(LookupPlace::Constants)] {
+                let plan = Plan::new(&program, shape).unwrap_or_else(|e| panic!("{e}"));
+                let (mut refused, mut harmless) = (0, 0);
+                for step in 0..plan.steps.len() {
+                    let mut broken = plan.clone();
+                    broken.steps[step] = match broken.steps[step].clone() {
+                        Step::Test { condition, then, other } => Step::Test { condition, then: other, other: then },
+                        Step::Leaf(leaf) => {
+                            let wrong = broken.pool.number(0.437_5);
+                            Step::Leaf(Leaf { values: vec![wrong; leaf.values.len()], ..leaf })
+                        }
+                        Step::Fetch { next, .. } => broken.step(next).clone(),
+                        Step::Switch { mut arms } => {
+                            arms.rotate_left(1);
+                            Step::Switch { arms }
+                        }
+                    };
+                    match broken.prove() {
+                        Err(failure) => {
+                            assert!(failure.to_string().contains("in the state H = "), "{failure}");
+                            refused += 1;
+                        }
+                        Ok(_) => harmless += 1,
+                    }
+                }
+                // A leaf that no state reaches (the default of a table that covers a
+                // branch completely, say) may be changed without harm; nothing else may.
+                assert!(refused > 0 && harmless <= 2, "{table} {shape}: {refused} refused, {harmless} harmless");
+            }
+        }
+    }
+
+    #[test]
+    fn a_wrong_lookup_is_refused() {
+        let program = program(TABLES[1]);
+        let plan = Plan::new(&program, Shape::Switch(LookupPlace::Buffer)).unwrap_or_else(|e| panic!("{e}"));
+        for state in [0, 1, 500, program.states.count() - 1] {
+            let mut broken = plan.clone();
+            broken.lookup[state] = (broken.lookup[state] + 1) % 20;
+            let failure = broken.prove().expect_err("another case is taken");
+            assert!(failure.to_string().contains("the table takes"), "{failure}");
+        }
+    }
+}
