@@ -1,7 +1,7 @@
 //! Table → program: declarations first, then rows, collecting every mistake.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 use super::pool::{CondId, ExprId, InputSet, Pool, TernaryOp};
@@ -571,7 +571,7 @@ impl<'t> Lowering<'t> {
                 return Err(self.unknown_level(from_set, &old.value, old.span));
             }
         }
-        Ok(Term::Level(to_set, Rc::new(LevelTerm::Map(term, renaming.into()))))
+        Ok(Term::Level(to_set, Arc::new(LevelTerm::Map(term, renaming.into()))))
     }
 
     fn symmetry(&mut self, symmetry: &'t table::Symmetry) -> Result<Symmetry> {
@@ -585,7 +585,7 @@ impl<'t> Lowering<'t> {
                 Term::Number(expr) => numbers.push((input, expr)),
                 Term::Level(_, term) => levels.push((input, (*term).clone())),
                 Term::Bool(condition) => {
-                    let (one, zero) = (Rc::new(LevelTerm::Const(1)), Rc::new(LevelTerm::Const(0)));
+                    let (one, zero) = (Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
                     levels.push((input, LevelTerm::If(condition, one, zero)));
                 }
                 Term::Vector(_) | Term::List(_) => {

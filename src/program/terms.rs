@@ -7,7 +7,7 @@
 //! else. That is the whole treatment of `case(…)` and of `is:`.
 
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::InputId;
 use super::lower::{Lowering, SetId};
@@ -29,9 +29,9 @@ pub enum LevelTerm {
     /// The level of an input.
     Input(InputId),
     /// One of two levels.
-    If(CondId, Rc<LevelTerm>, Rc<LevelTerm>),
+    If(CondId, Arc<LevelTerm>, Arc<LevelTerm>),
     /// A level, renamed through a list indexed by the old level.
-    Map(Rc<LevelTerm>, Rc<[u8]>),
+    Map(Arc<LevelTerm>, Arc<[u8]>),
 }
 
 /// A typed value.
@@ -40,7 +40,7 @@ pub(super) enum Term {
     Number(ExprId),
     Vector(Vec<ExprId>),
     Bool(CondId),
-    Level(SetId, Rc<LevelTerm>),
+    Level(SetId, Arc<LevelTerm>),
     /// A length and items, padded to the output's maximum.
     List(Vec<ExprId>),
 }
@@ -57,7 +57,7 @@ pub(super) enum Expected {
 #[derive(Clone, Default)]
 pub(super) struct Env {
     /// Inputs that mean something else here.
-    overrides: Rc<HashMap<InputId, Term>>,
+    overrides: Arc<HashMap<InputId, Term>>,
     /// Names bound by `let`, innermost last.
     locals: Vec<(String, Term)>,
     /// Which cases are being lowered, outermost first.
@@ -184,7 +184,7 @@ impl Lowering<'_> {
         // A level, where one is expected.
         if let Expected::Level(set) = expected {
             return match self.sets[set.0].find(name) {
-                Some(level) => Ok(Term::Level(set, Rc::new(LevelTerm::Const(level)))),
+                Some(level) => Ok(Term::Level(set, Arc::new(LevelTerm::Const(level)))),
                 None => Err(self.unknown_level(set, name, span)),
             };
         }
@@ -215,7 +215,7 @@ impl Lowering<'_> {
         match self.input_sets[input.index()] {
             None => Term::Number(self.pool.input(input)),
             Some(SetId::BOOL) => Term::Bool(self.pool.level(input, LevelSet::one(1), 2)),
-            Some(set) => Term::Level(set, Rc::new(LevelTerm::Input(input))),
+            Some(set) => Term::Level(set, Arc::new(LevelTerm::Input(input))),
         }
     }
 
@@ -426,8 +426,8 @@ impl Lowering<'_> {
         let (set, term) = match term {
             Term::Level(set, term) => (set, term),
             Term::Bool(condition) => {
-                let term = LevelTerm::If(condition, Rc::new(LevelTerm::Const(1)), Rc::new(LevelTerm::Const(0)));
-                (SetId::BOOL, Rc::new(term))
+                let term = LevelTerm::If(condition, Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
+                (SetId::BOOL, Arc::new(term))
             }
             other => return Err(type_error(value.span, &self.describe(&other), "only discrete inputs have levels")),
         };
@@ -497,7 +497,7 @@ impl Lowering<'_> {
             (Term::Vector(a), Term::Vector(b)) if a.len() == b.len() => Ok(Term::Vector(zip(self, a, b))),
             (Term::List(a), Term::List(b)) => Ok(Term::List(zip(self, a, b))),
             (Term::Level(s, a), Term::Level(t, b)) if s == t => {
-                Ok(Term::Level(*s, Rc::new(LevelTerm::If(condition, a.clone(), b.clone()))))
+                Ok(Term::Level(*s, Arc::new(LevelTerm::If(condition, a.clone(), b.clone()))))
             }
             _ => {
                 let message = format!("the other side is {}", self.describe(&then));
@@ -816,7 +816,7 @@ impl Lowering<'_> {
             overrides.insert(input, term);
         }
         let mut inner =
-            Env { overrides: Rc::new(overrides), locals: Vec::new(), cases: env.cases.clone(), referenced: true };
+            Env { overrides: Arc::new(overrides), locals: Vec::new(), cases: env.cases.clone(), referenced: true };
         inner.cases.push(id.value);
         let (_, lines, result) = self.row_parts(id, &inner)?;
         // The default applies where no line does; the guard is not part of the value.
@@ -842,7 +842,7 @@ impl Lowering<'_> {
             Some(SetId::BOOL) => Ok(Term::Bool(self.condition(value, env)?)),
             Some(set) => {
                 if let Some(level) = self.literal_level(set, value, env)? {
-                    return Ok(Term::Level(set, Rc::new(LevelTerm::Const(level))));
+                    return Ok(Term::Level(set, Arc::new(LevelTerm::Const(level))));
                 }
                 match self.term(value, env, Expected::Level(set))? {
                     Term::Level(found, term) if found == set => Ok(Term::Level(set, term)),
@@ -856,7 +856,7 @@ impl Lowering<'_> {
     pub(super) fn apply_result(&mut self, map: &Expr, value: Term, env: &Env) -> Result<Term> {
         match value {
             Term::Number(_) => {
-                let inner = Env { overrides: Rc::default(), ..env.with_local("value", value) };
+                let inner = Env { overrides: Arc::default(), ..env.with_local("value", value) };
                 Ok(Term::Number(self.numeric(map, &inner)?))
             }
             other => Err(type_error(map.span, &self.describe(&other), "only a single number can be mapped")),
@@ -867,7 +867,7 @@ impl Lowering<'_> {
     pub(super) fn mapped_env(&self, images: HashMap<InputId, Term>, env: &Env) -> Env {
         let mut overrides = (*env.overrides).clone();
         overrides.extend(images);
-        Env { overrides: Rc::new(overrides), ..env.clone() }
+        Env { overrides: Arc::new(overrides), ..env.clone() }
     }
 }
 

@@ -1,0 +1,170 @@
+//! From table files to generated files: what `umbrage build` does, and what a
+//! build script calls.
+//!
+//! Everything is made in memory first. Files are written only when every table
+//! of the run was checked, proved, emitted and validated, each through a
+//! temporary file beside its place, so that a failure leaves nothing behind.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::emit::{self, Target};
+use crate::plan::{LookupPlace, Plan, Proof, Shape};
+use crate::program::Program;
+use crate::table::io_reason;
+
+/// What to make of each table.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The code shapes.
+    pub shapes: Vec<Shape>,
+    /// The languages.
+    pub targets: Vec<Target>,
+}
+
+impl Default for Options {
+    /// The plans whose code stands alone, in every language.
+    fn default() -> Self {
+        Self { shapes: vec![Shape::Ladder, Shape::Switch(LookupPlace::Constants)], targets: Target::ALL.to_vec() }
+    }
+}
+
+/// A generated file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Artifact {
+    /// Where it goes, relative to the output directory: `table/plan.extension`.
+    pub path: PathBuf,
+    /// What it contains.
+    pub contents: Vec<u8>,
+}
+
+/// Everything made of one table.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// Name of the table.
+    pub table: String,
+    /// The plans, with their proofs.
+    pub plans: Vec<(Shape, Proof)>,
+    /// The plans that do not suit the table, with the reason.
+    pub skipped: Vec<(Shape, Failure)>,
+    /// The files.
+    pub files: Vec<Artifact>,
+}
+
+/// Proves, emits and validates one checked table.
+///
+/// # Errors
+/// When a plan cannot be proved or its output is not valid, or when no plan suits the table.
+pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
+    let mut built = Built { table: program.name.clone(), plans: Vec::new(), skipped: Vec::new(), files: Vec::new() };
+    for shape in &options.shapes {
+        let plan = match Plan::new(program, *shape) {
+            Ok(plan) => plan,
+            Err(reason) => {
+                built.skipped.push((*shape, reason));
+                continue;
+            }
+        };
+        let proved = plan.prove()?;
+        built.plans.push((*shape, proved.proof().clone()));
+        let path = |extension: &str| Path::new(&program.name).join(format!("{shape}.{extension}"));
+        for target in &options.targets {
+            built.files.push(Artifact { path: path(target.extension()), contents: emit::emit(&proved, *target)? });
+        }
+        if *shape == Shape::Switch(LookupPlace::Buffer) {
+            let words = emit::lookup_words(proved.plan());
+            let contents = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+            built.files.push(Artifact { path: path("lookup.bin"), contents });
+        }
+    }
+    match built.skipped.first() {
+        Some((_, reason)) if built.plans.is_empty() => Err(reason.clone()),
+        _ => Ok(built),
+    }
+}
+
+/// The table files at a path: the file itself, or every `.ron` file of a
+/// directory and of the directories in it, sorted.
+///
+/// # Errors
+/// When the path cannot be read or holds no table.
+pub fn find_tables(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let mut found = Vec::new();
+    collect(path, &mut found, true)?;
+    found.sort();
+    if found.is_empty() {
+        let diagnostic = Diagnostic::error(codes::UNREADABLE, "contains no table")
+            .help("tables are files whose name ends in `.ron`");
+        return Err(Failure::bare(shown(path), diagnostic));
+    }
+    Ok(found)
+}
+
+fn collect(path: &Path, found: &mut Vec<PathBuf>, named: bool) -> Result<(), Failure> {
+    let fail = |error: &std::io::Error| {
+        let message = format!("cannot be read: {}", io_reason(error));
+        let help = "check the path and its permissions";
+        Failure::bare(shown(path), Diagnostic::error(codes::UNREADABLE, message).help(help))
+    };
+    let metadata = std::fs::metadata(path).map_err(|e| fail(&e))?;
+    if metadata.is_dir() {
+        for entry in std::fs::read_dir(path).map_err(|e| fail(&e))? {
+            collect(&entry.map_err(|e| fail(&e))?.path(), found, false)?;
+        }
+    } else if named || path.extension().is_some_and(|extension| extension == "ron") {
+        found.push(path.to_owned());
+    }
+    Ok(())
+}
+
+/// A path as it is shown in messages.
+fn shown(path: &Path) -> String {
+    path.to_string_lossy().replace('\\', "/")
+}
+
+/// Writes files below a directory, all or none as far as the file system
+/// allows, and leaves alone those that already say the same. Returns how many
+/// were written.
+///
+/// # Errors
+/// When a directory or file cannot be written; the message names it.
+pub fn write(directory: &Path, files: &[Artifact]) -> Result<usize, Failure> {
+    let fail = |path: &Path, error: &std::io::Error| {
+        let message = format!("cannot be written: {}", io_reason(error));
+        let help = "choose another place, or mend its permissions";
+        Failure::bare(shown(path), Diagnostic::error(codes::UNWRITABLE, message).help(help))
+    };
+    let mut pending = Vec::new();
+    for file in files {
+        let path = directory.join(&file.path);
+        if std::fs::read(&path).is_ok_and(|old| old == file.contents) {
+            continue;
+        }
+        let parent = path.parent().unwrap_or(directory);
+        std::fs::create_dir_all(parent).map_err(|e| fail(parent, &e))?;
+        let mut temporary = tempfile::NamedTempFile::new_in(parent).map_err(|e| fail(parent, &e))?;
+        temporary.write_all(&file.contents).map_err(|e| fail(&path, &e))?;
+        if path.is_dir() {
+            return Err(fail(&path, &std::io::Error::from(std::io::ErrorKind::IsADirectory)));
+        }
+        pending.push((temporary, path));
+    }
+    let count = pending.len();
+    for (temporary, path) in pending {
+        set_readable(&temporary);
+        temporary.persist(&path).map_err(|e| fail(&path, &e.error))?;
+    }
+    Ok(count)
+}
+
+/// Temporary files are private; what they become is not.
+#[cfg(unix)]
+fn set_readable(file: &tempfile::NamedTempFile) {
+    use std::os::unix::fs::PermissionsExt;
+    // If it fails the file stays private, which is no reason not to write it.
+    let _ = file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644));
+}
+
+#[cfg(not(unix))]
+fn set_readable(_: &tempfile::NamedTempFile) {}

@@ -1,0 +1,242 @@
+//! Steps, conditions and expressions → statements of some language.
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::dialect::{Dialect, Prefix, Type, bare};
+use super::module::Names;
+use super::text::Text;
+use crate::plan::{Leaf, Plan, Step, StepId};
+use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node};
+
+/// Deepest nesting of a printed expression; what is deeper gets a local.
+/// Front ends recurse, and some give up at about seventy levels.
+const MAX_NESTING: usize = 24;
+
+/// Prints the steps of one function.
+pub(super) struct Body<'a, 'p> {
+    pub(super) plan: &'a Plan<'p>,
+    pub(super) dialect: &'a dyn Dialect,
+    pub(super) prefix: &'a Prefix,
+    pub(super) names: &'a Names,
+    pub(super) text: &'a mut Text,
+    /// Numbers the locals that have no name in the table.
+    pub(super) temporaries: usize,
+}
+
+/// The locals in sight: expressions that already have a name.
+type Locals = HashMap<ExprId, String>;
+
+impl Body<'_, '_> {
+    /// Prints a step and everything after it. Every path ends in a return.
+    pub(super) fn step(&mut self, mut at: StepId) {
+        loop {
+            match self.plan.step(at).clone() {
+                Step::Test { condition, then, other } => {
+                    let condition = self.condition(condition, &Locals::new());
+                    let open = self.dialect.if_open(bare(&condition));
+                    self.text.open(open);
+                    self.step(then);
+                    self.text.close();
+                    at = other;
+                }
+                Step::Fetch { input, next } => {
+                    let (ident, ty) = self.names.fetched(self.plan.program, input);
+                    let call = self.dialect.fetch(self.prefix, &ident);
+                    let line = self.dialect.local(&ty, &ident, &call, self.prefix);
+                    self.text.line(line);
+                    at = next;
+                }
+                Step::Switch { arms } => {
+                    // The last way stands behind the choice, so that every
+                    // language sees that all paths return.
+                    if let Some((last, arms)) = arms.split_last() {
+                        let selector = format!("{}(key)", self.dialect.global(self.prefix, "arm"));
+                        self.text.open(self.dialect.switch_open(&selector));
+                        for (number, arm) in arms.iter().enumerate() {
+                            self.text.open(self.dialect.case_open(&[number as u32]));
+                            self.step(*arm);
+                            self.text.close();
+                        }
+                        self.text.line(self.dialect.case_default());
+                        self.text.close();
+                        self.step(*last);
+                    }
+                    return;
+                }
+                Step::Leaf(leaf) => return self.leaf(&leaf),
+            }
+        }
+    }
+
+    fn leaf(&mut self, leaf: &Leaf) {
+        let program = self.plan.program;
+        let file = self.names.file.clone();
+        let case = match leaf.row.map(|row| &program.rows[row]) {
+            None => {
+                self.text.comment("default: no case matches");
+                self.dialect.global_constant(self.prefix, "DEFAULT")
+            }
+            Some(row) => {
+                let line = leaf.line.map(|line| &row.lines[line]);
+                let (number, place) = match (leaf.line, line) {
+                    (Some(_), Some(line)) if row.lines.len() == 1 => (String::new(), program.line(line.span)),
+                    (Some(number), Some(line)) => (format!(", line {}", number + 1), program.line(line.span)),
+                    _ => (", no line applies: default".to_owned(), program.line(row.span)),
+                };
+                let section = if row.section.is_empty() { String::new() } else { format!("section {}; ", row.section) };
+                self.text.comment(&format!("case {}{number}: {} ({section}{file}:{place})", row.id, row.doc));
+                self.dialect.uint(row.id)
+            }
+        };
+        let output = &program.output;
+        let components: Vec<String> = if output.is_integer() {
+            leaf.values.iter().map(|value| self.integer(*value)).collect()
+        } else {
+            let locals = self.locals(&leaf.values);
+            leaf.values.iter().map(|value| self.expr(*value, &locals)).collect()
+        };
+        let components: Vec<String> = components.iter().map(|c| bare(c).to_owned()).collect();
+        let value = self.dialect.value(output, &components);
+        let result = self.dialect.result(self.prefix, &value, &case);
+        self.text.line(format!("return {result};"));
+    }
+
+    /// Declares locals for what the table names, what occurs more than once, and what nests too deeply.
+    fn locals(&mut self, values: &[ExprId]) -> Locals {
+        let mut uses: HashMap<ExprId, usize> = HashMap::new();
+        let mut order = Vec::new();
+        for value in values {
+            self.visit(*value, &mut uses, &mut order);
+        }
+        let mut locals = Locals::new();
+        let mut depths: HashMap<ExprId, usize> = HashMap::new();
+        let mut taken: BTreeSet<String> = BTreeSet::new();
+        for expr in order {
+            let pool = &self.plan.pool;
+            let children = children(pool.node(expr));
+            let depth = 1 + children.iter().filter_map(|c| depths.get(c)).max().copied().unwrap_or(0);
+            depths.insert(expr, depth);
+            let is_result = values.contains(&expr);
+            let shared = uses.get(&expr).copied().unwrap_or(0) > 1;
+            let label = pool.label(expr).map(|label| label.replace('.', "_"));
+            let trivial = matches!(pool.node(expr), Node::Const(_) | Node::Input(_) | Node::Result);
+            if trivial || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
+                continue;
+            }
+            let name = match label {
+                Some(label) if !taken.contains(&label) => label,
+                _ => {
+                    self.temporaries += 1;
+                    format!("{}{}t", self.names.temporary, self.temporaries)
+                }
+            };
+            let value = self.expr(expr, &locals);
+            let line = self.dialect.local(&Type::Float, &name, bare(&value), self.prefix);
+            self.text.line(line);
+            taken.insert(name.clone());
+            locals.insert(expr, name);
+            depths.insert(expr, 0);
+        }
+        locals
+    }
+
+    fn visit(&self, expr: ExprId, uses: &mut HashMap<ExprId, usize>, order: &mut Vec<ExprId>) {
+        let count = uses.entry(expr).or_insert(0);
+        *count += 1;
+        if *count > 1 {
+            return;
+        }
+        for child in children(self.plan.pool.node(expr)) {
+            self.visit(child, uses, order);
+        }
+        order.push(expr);
+    }
+
+    fn expr(&self, expr: ExprId, locals: &Locals) -> String {
+        if let Some(name) = locals.get(&expr) {
+            return name.clone();
+        }
+        let of = |e: ExprId| self.expr(e, locals);
+        match self.plan.pool.node(expr) {
+            Node::Const(number) => self.dialect.number(number.get()),
+            Node::Input(input) => self.plan.program.inputs[input.index()].ident.clone(),
+            // Occurs in the result map of a symmetry only, which is not part of any plan.
+            Node::Result => String::new(),
+            Node::Unary(op, a) => self.dialect.unary(op, &of(a)),
+            Node::Binary(op, a, b) => self.dialect.binary(op, &of(a), &of(b)),
+            Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),
+            Node::Select(c, a, b) => {
+                let (a, b) = (of(a), of(b));
+                self.dialect.select(bare(&self.condition(c, locals)), bare(&a), bare(&b))
+            }
+        }
+    }
+
+    /// An expression of whole numbers: constants and selections.
+    fn integer(&self, expr: ExprId) -> String {
+        match self.plan.pool.node(expr) {
+            Node::Select(c, a, b) => {
+                let condition = self.condition(c, &Locals::new());
+                self.dialect.select(bare(&condition), &self.integer(a), &self.integer(b))
+            }
+            Node::Const(number) => self.dialect.uint(number.get() as u32),
+            _ => self.dialect.uint(0),
+        }
+    }
+
+    fn condition(&self, condition: CondId, locals: &Locals) -> String {
+        let joined = |parts: &[CondId], symbol: &str| {
+            let parts: Vec<String> = parts.iter().map(|part| self.condition(*part, locals)).collect();
+            format!("({})", parts.join(symbol))
+        };
+        match self.plan.pool.cond(condition) {
+            Cond::Const(value) => value.to_string(),
+            Cond::Level(input, levels) => self.level(*input, *levels),
+            Cond::Compare(op, a, b) => {
+                let symbol = match op {
+                    Comparison::Less => "<",
+                    Comparison::LessEqual => "<=",
+                    Comparison::Equal => "==",
+                };
+                format!("({} {symbol} {})", self.expr(*a, locals), self.expr(*b, locals))
+            }
+            Cond::Not(a) => format!("!({})", bare(&self.condition(*a, locals))),
+            Cond::And(parts) => joined(parts, " && "),
+            Cond::Or(parts) => joined(parts, " || "),
+            Cond::If(c, a, b) => {
+                let [c, a, b] = [c, a, b].map(|part| self.condition(*part, locals));
+                format!("(({c} && {a}) || (!({}) && {b}))", bare(&c))
+            }
+        }
+    }
+
+    fn level(&self, input: InputId, levels: LevelSet) -> String {
+        let declared = &self.plan.program.inputs[input.index()];
+        let name = &declared.ident;
+        let Domain::Discrete(known) = &declared.domain else { return "false".to_owned() };
+        if known.kind == LevelKind::Bool {
+            return if levels.contains(1) { name.clone() } else { format!("!{name}") };
+        }
+        let constant = |level: u8| self.names.level(self.plan.program, input, level);
+        let inside: Vec<u8> = levels.iter().collect();
+        let outside: Vec<u8> = (0..known.count() as u8).filter(|l| !levels.contains(*l)).collect();
+        let all = |levels: &[u8], symbol: &str, joint: &str| {
+            let parts: Vec<String> = levels.iter().map(|l| format!("{name} {symbol} {}", constant(*l))).collect();
+            if let [one] = parts.as_slice() {
+                return format!("({one})");
+            }
+            let parts: Vec<String> = parts.iter().map(|p| format!("({p})")).collect();
+            format!("({})", parts.join(joint))
+        };
+        if inside.len() <= outside.len() { all(&inside, "==", " || ") } else { all(&outside, "!=", " && ") }
+    }
+}
+
+fn children(node: Node) -> Vec<ExprId> {
+    match node {
+        Node::Const(_) | Node::Input(_) | Node::Result => Vec::new(),
+        Node::Unary(_, a) => vec![a],
+        Node::Binary(_, a, b) | Node::Select(_, a, b) => vec![a, b],
+        Node::Ternary(_, a, b, c) => vec![a, b, c],
+    }
+}

@@ -1,0 +1,157 @@
+//! What differs between the languages that Umbrage prints itself.
+
+use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
+
+/// A type in generated code.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Type {
+    Float,
+    Uint,
+    Bool,
+    /// The table's output.
+    Value(Output),
+    /// The output together with the case taken.
+    Result,
+    /// What the host's fetch functions are given.
+    Site,
+}
+
+/// Names that a table contributes to generated code.
+#[derive(Debug, Clone)]
+pub(super) struct Prefix {
+    /// `rsmss`
+    pub(super) lower: String,
+    /// `RSMSS`
+    pub(super) upper: String,
+    /// `Rsmss`
+    pub(super) camel: String,
+}
+
+impl Prefix {
+    pub(super) fn new(name: &str) -> Self {
+        let capital = |word: &str| {
+            let mut chars = word.chars();
+            chars.next().map(|first| first.to_ascii_uppercase().to_string() + chars.as_str()).unwrap_or_default()
+        };
+        Self {
+            lower: name.to_owned(),
+            upper: name.to_ascii_uppercase(),
+            camel: name.split('_').map(capital).collect(),
+        }
+    }
+
+    /// The structure of value and case.
+    pub(super) fn result(&self) -> String {
+        format!("{}Result", self.camel)
+    }
+
+    /// The structure that the host defines.
+    pub(super) fn site(&self) -> String {
+        format!("{}Site", self.camel)
+    }
+}
+
+/// How a language says things.
+pub(super) trait Dialect {
+    /// The name of a type.
+    fn ty(&self, ty: &Type, prefix: &Prefix) -> String;
+    /// The first lines of a file, after the comment.
+    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String;
+    /// The last lines of a file.
+    fn epilogue(&self) -> &'static str {
+        ""
+    }
+    /// `pub` where needed, in front of functions and constants.
+    fn constant(&self, name: &str, value: u32) -> String;
+    /// The structure of value and case.
+    fn result_struct(&self, prefix: &Prefix, output: &Output) -> String;
+    /// The first line of a function.
+    fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String;
+    /// Declares a local constant.
+    fn local(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String;
+    /// The first line of a conditional.
+    fn if_open(&self, condition: &str) -> String;
+    /// The first line of a choice by number.
+    fn switch_open(&self, selector: &str) -> String;
+    /// The first line of a way of the choice.
+    fn case_open(&self, values: &[u32]) -> String;
+    /// The way of all other numbers, which leads behind the choice.
+    fn case_default(&self) -> &'static str;
+    /// A real number.
+    fn number(&self, value: f64) -> String;
+    /// A whole number.
+    fn uint(&self, value: u32) -> String;
+    /// One of two values.
+    fn select(&self, condition: &str, then: &str, other: &str) -> String;
+    /// 0 or 1.
+    fn bool_to_uint(&self, condition: &str) -> String;
+    /// Calls the host for a fetched input.
+    fn fetch(&self, prefix: &Prefix, ident: &str) -> String;
+    /// The argument that passes the site on.
+    fn site_argument(&self) -> &'static str {
+        "site"
+    }
+    /// An operation on one number.
+    fn unary(&self, op: UnaryOp, a: &str) -> String;
+    /// An operation on two numbers.
+    fn binary(&self, op: BinaryOp, a: &str, b: &str) -> String;
+    /// An operation on three numbers.
+    fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String;
+    /// The output made of its components.
+    fn value(&self, output: &Output, components: &[String]) -> String;
+    /// Value and case together.
+    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String;
+    /// The function of the host that reads a word of the lookup, where it is one.
+    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String;
+    /// Names of the entry points in this language: with f32 levels, with a key, and both with the case.
+    fn entry_names(&self, prefix: &Prefix) -> [String; 4] {
+        let p = &prefix.lower;
+        [p.clone(), format!("{p}_key"), format!("{p}_case"), format!("{p}_key_case")]
+    }
+    /// A name of the module, such as a helper or a constant.
+    fn global(&self, prefix: &Prefix, name: &str) -> String {
+        format!("{}_{name}", prefix.lower)
+    }
+    /// A constant of the module.
+    fn global_constant(&self, prefix: &Prefix, name: &str) -> String {
+        format!("{}_{name}", prefix.upper)
+    }
+}
+
+/// An infix operation, always in parentheses: some front ends refuse what
+/// others accept without.
+pub(super) fn infix(op: BinaryOp, a: &str, b: &str) -> Option<String> {
+    let symbol = match op {
+        BinaryOp::Add => "+",
+        BinaryOp::Subtract => "-",
+        BinaryOp::Multiply => "*",
+        BinaryOp::Divide => "/",
+        _ => return None,
+    };
+    Some(format!("({a} {symbol} {b})"))
+}
+
+/// A call; arguments need no parentheses of their own.
+pub(super) fn call(name: &str, arguments: &[&str]) -> String {
+    let arguments: Vec<&str> = arguments.iter().map(|argument| bare(argument)).collect();
+    format!("{name}({})", arguments.join(", "))
+}
+
+/// The shortest decimal that reads back as the same `f32`.
+pub(super) fn decimal(value: f64) -> String {
+    let text = format!("{:?}", value as f32);
+    if text.starts_with('-') { format!("({text})") } else { text }
+}
+
+/// Removes the parentheses around a whole expression.
+pub(super) fn bare(text: &str) -> &str {
+    let Some(inner) = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')) else { return text };
+    let mut depth = 0_i32;
+    for c in inner.chars() {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        if depth < 0 {
+            return text;
+        }
+    }
+    inner
+}

@@ -1,0 +1,83 @@
+//! Indented lines of generated text, and comments that cannot break out.
+
+/// Collects lines.
+#[derive(Debug, Default)]
+pub(super) struct Text {
+    out: String,
+    indent: usize,
+}
+
+impl Text {
+    /// The text so far.
+    pub(super) fn finish(self) -> String {
+        self.out
+    }
+
+    /// A line at the current depth. Several lines keep their own indentation.
+    pub(super) fn line(&mut self, line: impl AsRef<str>) {
+        for part in line.as_ref().lines() {
+            if !part.is_empty() {
+                self.out.extend(std::iter::repeat_n("    ", self.indent));
+                self.out.push_str(part);
+            }
+            self.out.push('\n');
+        }
+    }
+
+    /// An empty line.
+    pub(super) fn gap(&mut self) {
+        self.out.push('\n');
+    }
+
+    /// A comment line.
+    pub(super) fn comment(&mut self, text: &str) {
+        self.line(format!("// {}", harmless(text)).trim_end());
+    }
+
+    /// A line that opens a block.
+    pub(super) fn open(&mut self, line: impl AsRef<str>) {
+        self.line(line);
+        self.indent += 1;
+    }
+
+    /// Closes a block.
+    pub(super) fn close(&mut self) {
+        self.indent = self.indent.saturating_sub(1);
+        self.line("}");
+    }
+}
+
+/// Text for a comment: one line of printable ASCII. Line breaks (WGSL knows
+/// several in Unicode) and backslashes (which continue a line in GLSL and
+/// HLSL) would otherwise let a description end its comment or swallow code.
+pub(super) fn harmless(text: &str) -> String {
+    text.chars()
+        .map(|c| match c {
+            '\\' => '/',
+            ' '..='~' => c,
+            c if c.is_whitespace() || c.is_control() => ' ',
+            _ => '?',
+        })
+        .collect()
+}
+
+/// FNV-1a, 64 bits: names the inputs of a file in its header.
+pub(super) fn fingerprint(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_stay_comments() {
+        assert_eq!(harmless("a\nfn evil() {}\u{2028}b\\"), "a fn evil() {} b/");
+    }
+
+    #[test]
+    fn fingerprint_is_fnv() {
+        assert_eq!(fingerprint(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fingerprint(b"a"), 0xaf63_dc4c_8601_ec8c);
+    }
+}

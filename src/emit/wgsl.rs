@@ -1,0 +1,126 @@
+//! WGSL.
+
+use super::dialect::{Dialect, Prefix, Type, call, decimal, infix};
+use crate::program::{BINARY_FUNCTIONS, BinaryOp, Output, TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp};
+
+/// WGSL, with nothing but functions, constants and one structure.
+pub(super) struct Wgsl;
+
+impl Dialect for Wgsl {
+    fn ty(&self, ty: &Type, prefix: &Prefix) -> String {
+        match ty {
+            Type::Float => "f32".to_owned(),
+            Type::Uint => "u32".to_owned(),
+            Type::Bool => "bool".to_owned(),
+            Type::Value(Output::Number) => "f32".to_owned(),
+            Type::Value(Output::Vector(size)) => format!("vec{size}<f32>"),
+            Type::Value(Output::Enumeration(_)) => "u32".to_owned(),
+            Type::Value(Output::List { max, .. }) => format!("array<u32, {}>", max + 1),
+            Type::Result => prefix.result(),
+            Type::Site => prefix.site(),
+        }
+    }
+
+    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String {
+        if fetches.is_empty() {
+            return String::new();
+        }
+        let mut out = String::from("// To be supplied by the host, anywhere in the same module:\n");
+        out += &format!("//   struct {} {{ ... }}  what a fetch needs to know, a texel for instance\n", prefix.site());
+        for (ident, ty) in fetches {
+            let ty = self.ty(ty, prefix);
+            out += &format!("//   fn {}_fetch_{ident}(site: {}) -> {ty}\n", prefix.lower, prefix.site());
+        }
+        out
+    }
+
+    fn constant(&self, name: &str, value: u32) -> String {
+        format!("const {name}: u32 = {value}u;")
+    }
+
+    fn result_struct(&self, prefix: &Prefix, output: &Output) -> String {
+        let ty = self.ty(&Type::Value(output.clone()), prefix);
+        format!("struct {} {{\n    value: {ty},\n    case_id: u32,\n}}", prefix.result())
+    }
+
+    fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String {
+        let list: Vec<String> = parameters.iter().map(|(n, t)| format!("{n}: {}", self.ty(t, prefix))).collect();
+        format!("fn {name}({}) -> {} {{", list.join(", "), self.ty(result, prefix))
+    }
+
+    fn local(&self, _: &Type, name: &str, value: &str, _: &Prefix) -> String {
+        format!("let {name} = {value};")
+    }
+
+    fn if_open(&self, condition: &str) -> String {
+        format!("if ({condition}) {{")
+    }
+
+    fn switch_open(&self, selector: &str) -> String {
+        format!("switch ({selector}) {{")
+    }
+
+    fn case_open(&self, values: &[u32]) -> String {
+        let values: Vec<String> = values.iter().map(|v| self.uint(*v)).collect();
+        format!("case {}: {{", values.join(", "))
+    }
+
+    fn case_default(&self) -> &'static str {
+        "default: {}"
+    }
+
+    fn number(&self, value: f64) -> String {
+        decimal(value)
+    }
+
+    fn uint(&self, value: u32) -> String {
+        format!("{value}u")
+    }
+
+    fn select(&self, condition: &str, then: &str, other: &str) -> String {
+        format!("select({other}, {then}, {condition})")
+    }
+
+    fn bool_to_uint(&self, condition: &str) -> String {
+        format!("u32({condition})")
+    }
+
+    fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
+        format!("{}_fetch_{ident}(site)", prefix.lower)
+    }
+
+    fn unary(&self, op: UnaryOp, a: &str) -> String {
+        match UNARY_FUNCTIONS.iter().find(|(_, o)| *o == op) {
+            Some((name, _)) => call(name, &[a]),
+            None => format!("(-{a})"),
+        }
+    }
+
+    fn binary(&self, op: BinaryOp, a: &str, b: &str) -> String {
+        match BINARY_FUNCTIONS.iter().find(|(_, o)| *o == op) {
+            Some((name, _)) => call(name, &[a, b]),
+            None => infix(op, a, b).unwrap_or_else(|| format!("({a} % {b})")),
+        }
+    }
+
+    fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String {
+        let name = TERNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("fma", |(name, _)| *name);
+        call(name, &[a, b, c])
+    }
+
+    fn value(&self, output: &Output, components: &[String]) -> String {
+        match output {
+            Output::Number | Output::Enumeration(_) => components.concat(),
+            Output::Vector(size) => format!("vec{size}<f32>({})", components.join(", ")),
+            Output::List { max, .. } => format!("array<u32, {}>({})", max + 1, components.join(", ")),
+        }
+    }
+
+    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
+        format!("{}({value}, {case})", prefix.result())
+    }
+
+    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
+        format!("{}_lookup({word})", prefix.lower)
+    }
+}
