@@ -1,0 +1,255 @@
+//! A table as a compute pipeline.
+
+use std::borrow::Cow;
+use std::sync::mpsc;
+
+use wgpu::util::DeviceExt;
+
+use super::Gpu;
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::emit::harness::{COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, wgsl_columns};
+use crate::emit::{glsl_module, lookup_words, wgsl_module};
+use crate::eval::Columns;
+use crate::plan::{KeyLayout, LookupPlace, Proved, Shape};
+use crate::program::{Domain, InputId, InputSet, LevelKind, Program};
+
+/// Most rows of one dispatch.
+const MAX_ROWS: usize = 1 << 18;
+
+/// The language in which a kernel is handed over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Language {
+    /// The emitted WGSL.
+    Wgsl,
+    /// The emitted GLSL 450, read by naga.
+    Glsl,
+}
+
+impl Language {
+    /// Both.
+    pub const ALL: [Language; 2] = [Language::Wgsl, Language::Glsl];
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Language::Wgsl => "wgsl",
+            Language::Glsl => "glsl",
+        }
+    }
+}
+
+/// A plan on a device.
+#[derive(Debug)]
+pub struct Kernel<'a, 'p> {
+    gpu: &'a Gpu,
+    program: &'p Program,
+    key: KeyLayout,
+    entry: Entry,
+    layout: Layout,
+    pipeline: wgpu::ComputePipeline,
+    lookup: Option<wgpu::Buffer>,
+}
+
+/// What a kernel returned, row by row.
+#[derive(Debug, Clone, Default)]
+pub struct Outputs {
+    /// The row of the program that was taken; `None` for the default.
+    pub rows: Vec<Option<usize>>,
+    /// For each component of the output, its values. Whole numbers are exact.
+    pub values: Vec<Vec<f32>>,
+    /// The inputs that were fetched.
+    pub fetched: Vec<InputSet>,
+    /// The inputs that were fetched more than once.
+    pub repeated: Vec<InputSet>,
+}
+
+impl<'a, 'p> Kernel<'a, 'p> {
+    /// Compiles a proved plan for a device.
+    ///
+    /// # Errors
+    /// When the source is refused; that would be a bug of the emitter or the driver.
+    pub fn new(gpu: &'a Gpu, proved: &Proved<'p>, entry: Entry, language: Language) -> Result<Self, Failure> {
+        let program = proved.plan().program;
+        let module = match language {
+            Language::Wgsl => wgsl_module(program, &wgsl_columns(proved, entry))?,
+            Language::Glsl => glsl_module(program, &glsl_columns(proved, entry))?,
+        };
+        let shader = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(&program.name),
+            source: wgpu::ShaderSource::Naga(Cow::Owned(module.module)),
+        });
+        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(&program.name),
+            layout: None,
+            module: &shader,
+            entry_point: None,
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let lookup = (proved.plan().shape == Shape::Switch(LookupPlace::Buffer)).then(|| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("lookup"),
+                contents: bytemuck::cast_slice(&lookup_words(proved.plan())),
+                usage: wgpu::BufferUsages::STORAGE,
+            })
+        });
+        gpu.check()?;
+        let layout = Layout::new(program, entry);
+        Ok(Self { gpu, program, key: proved.plan().key.clone(), entry, layout, pipeline, lookup })
+    }
+
+    /// Evaluates columns, in as many dispatches as the device's limits ask for.
+    /// Fetched inputs that are absent read as level 255 or NaN.
+    ///
+    /// # Errors
+    /// When the device is lost or out of memory.
+    pub fn run(&self, columns: &Columns<f32>) -> Result<Outputs, Failure> {
+        let limit = self.gpu.device.limits().max_storage_buffer_binding_size;
+        let widest = self.layout.plain.max(self.layout.fetched).max(self.layout.out).max(1) as u64;
+        let fitting = usize::try_from(limit / (4 * widest)).unwrap_or(MAX_ROWS).saturating_sub(1);
+        let chunk = MAX_ROWS.min(fitting);
+        if chunk == 0 {
+            let message = "the device's buffers are too small for a single row";
+            return Err(Failure::bare("", Diagnostic::error(codes::DEVICE, message).help("use another adapter")));
+        }
+        let mut outputs = Outputs { values: vec![Vec::new(); self.layout.values], ..Outputs::default() };
+        let mut start = 0;
+        while start < columns.len() {
+            let end = columns.len().min(start + chunk);
+            self.run_chunk(columns, start, end, &mut outputs)?;
+            start = end;
+        }
+        Ok(outputs)
+    }
+
+    fn run_chunk(&self, columns: &Columns<f32>, start: usize, end: usize, outputs: &mut Outputs) -> Result<(), Failure> {
+        let gpu = self.gpu;
+        let count = end - start;
+        let storage = |label: &str, contents: &[u32]| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents: bytemuck::cast_slice(contents),
+                usage: wgpu::BufferUsages::STORAGE,
+            })
+        };
+        let plain = storage("plain", &self.plain_words(columns, start, end));
+        let fetched = (self.layout.fetched > 0).then(|| storage("fetched", &self.fetched_words(columns, start, end)));
+        let size = (4 * count * self.layout.out) as u64;
+        let buffer = |label: &str, usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+        };
+        // A new buffer is zeroed, so the counts of fetches start at zero.
+        let out = buffer("out", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
+        let back = buffer("back", wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+        gpu.check()?;
+
+        let mut entries = vec![(0, &plain), (2, &out)];
+        entries.extend(fetched.as_ref().map(|buffer| (1, buffer)));
+        entries.extend(self.lookup.as_ref().map(|buffer| (3, buffer)));
+        let entries: Vec<_> = entries
+            .into_iter()
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &self.pipeline.get_bind_group_layout(0),
+            entries: &entries,
+        });
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups((count as u32).div_ceil(WORKGROUP), 1, 1);
+        }
+        encoder.copy_buffer_to_buffer(&out, 0, &back, 0, size);
+        gpu.queue.submit([encoder.finish()]);
+
+        let (sender, receiver) = mpsc::channel();
+        back.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+            // The receiver only goes away after an error that was reported already.
+            let _ = sender.send(result);
+        });
+        let failed = |what: &str| {
+            let message = format!("results could not be read back: {what}");
+            Failure::bare("", Diagnostic::error(codes::DEVICE, message).help("try fewer rows, or another adapter"))
+        };
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error.to_string()))?;
+        gpu.check()?;
+        receiver.recv().map_err(|e| failed(&e.to_string()))?.map_err(|e| failed(&e.to_string()))?;
+        let view = back.slice(..).get_mapped_range().map_err(|e| failed(&e.to_string()))?;
+        self.read(bytemuck::cast_slice(&view), outputs);
+        Ok(())
+    }
+
+    fn plain_inputs(&self) -> impl Iterator<Item = (InputId, &Domain)> {
+        self.program.input_ids().filter(|(_, input)| input.fetched.is_none()).map(|(id, input)| (id, &input.domain))
+    }
+
+    fn plain_words(&self, columns: &Columns<f32>, start: usize, end: usize) -> Vec<u32> {
+        let mut words = Vec::with_capacity(1 + (end - start) * self.layout.plain);
+        words.push((end - start) as u32);
+        let inputs: Vec<(InputId, &Domain)> = self.plain_inputs().collect();
+        for row in start..end {
+            if self.entry == Entry::Key {
+                words.push(self.key.pack(|input| columns.levels(input)[row]));
+            }
+            for (input, domain) in &inputs {
+                match domain {
+                    Domain::Continuous { .. } => words.push(columns.numbers(*input)[row].to_bits()),
+                    Domain::Discrete(_) if self.entry == Entry::Key => {}
+                    Domain::Discrete(levels) => {
+                        let level = columns.levels(*input)[row];
+                        words.push(match levels.kind {
+                            LevelKind::Bool => u32::from(level),
+                            _ => (levels.codes[usize::from(level)] as f32).to_bits(),
+                        });
+                    }
+                }
+            }
+        }
+        words
+    }
+
+    fn fetched_words(&self, columns: &Columns<f32>, start: usize, end: usize) -> Vec<u32> {
+        let inputs: Vec<(InputId, bool)> = self
+            .program
+            .fetched
+            .iter()
+            .map(|input| (input, self.program.levels(input).is_some()))
+            .collect();
+        let mut words = Vec::with_capacity((end - start) * self.layout.fetched);
+        for row in start..end {
+            words.extend(inputs.iter().map(|(input, discrete)| match discrete {
+                true => u32::from(columns.levels(*input)[row]),
+                false if columns.is_present(row, *input) => columns.numbers(*input)[row].to_bits(),
+                false => f32::NAN.to_bits(),
+            }));
+        }
+        words
+    }
+
+    fn read(&self, words: &[u32], outputs: &mut Outputs) {
+        let rows: std::collections::HashMap<u32, usize> =
+            self.program.rows.iter().enumerate().map(|(index, row)| (row.id, index)).collect();
+        let fetched: Vec<InputId> = self.program.fetched.iter().collect();
+        let integer = self.program.output.is_integer();
+        for result in words.chunks_exact(self.layout.out) {
+            outputs.rows.push(rows.get(&result[0]).copied());
+            for (component, word) in outputs.values.iter_mut().zip(&result[1..]) {
+                component.push(if integer { *word as f32 } else { f32::from_bits(*word) });
+            }
+            let (mut once, mut repeated) = (InputSet::default(), InputSet::default());
+            for (index, input) in fetched.iter().enumerate() {
+                let word = result[1 + self.layout.values + index / COUNTS_PER_WORD];
+                match word >> (4 * (index % COUNTS_PER_WORD)) & 15 {
+                    0 => {}
+                    1 => once = once.or(InputSet::one(*input)),
+                    _ => repeated = repeated.or(InputSet::one(*input)),
+                }
+            }
+            outputs.fetched.push(once.or(repeated));
+            outputs.repeated.push(repeated);
+        }
+    }
+}
