@@ -3,6 +3,10 @@
 //! The `f32` meaning is the exact result rounded to nearest. Basic operations
 //! are that by IEEE 754; the others are computed in `f64` (by the portable
 //! `libm`, so that every machine gets the same bits) and rounded once.
+//!
+//! `min` and `max` are spelled out for the same reason: the standard library
+//! leaves open which zero they return of two, and it differs between machines
+//! and between scalar and vector code. Here it is the first operand.
 
 use super::pool::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 
@@ -52,15 +56,36 @@ impl Comparison {
     }
 }
 
+/// The larger number; the first of equal ones, and the other one of a NaN.
+#[inline]
+fn larger<T: PartialOrd>(a: T, b: T) -> T {
+    if b > a || is_nan(&a) { b } else { a }
+}
+
+/// The smaller number; the first of equal ones, and the other one of a NaN.
+#[inline]
+fn smaller<T: PartialOrd>(a: T, b: T) -> T {
+    if b < a || is_nan(&a) { b } else { a }
+}
+
+#[inline]
+#[allow(clippy::eq_op)]
+fn is_nan<T: PartialOrd>(a: &T) -> bool {
+    a != a
+}
+
 impl Real for f64 {
+    #[inline]
     fn from_f64(value: f64) -> Self {
         value
     }
 
+    #[inline]
     fn to_f64(self) -> f64 {
         self
     }
 
+    #[inline]
     fn unary(op: UnaryOp, a: f64) -> f64 {
         match op {
             UnaryOp::Negate => -a,
@@ -84,7 +109,7 @@ impl Real for f64 {
             UnaryOp::Log2 => libm::log2(a),
             UnaryOp::Radians => a.to_radians(),
             UnaryOp::Round => a.round_ties_even(),
-            UnaryOp::Saturate => a.max(0.0).min(1.0),
+            UnaryOp::Saturate => smaller(larger(a, 0.0), 1.0),
             UnaryOp::Sign if a > 0.0 => 1.0,
             UnaryOp::Sign if a < 0.0 => -1.0,
             UnaryOp::Sign => a * 0.0,
@@ -97,6 +122,7 @@ impl Real for f64 {
         }
     }
 
+    #[inline]
     fn binary(op: BinaryOp, a: f64, b: f64) -> f64 {
         match op {
             BinaryOp::Add => a + b,
@@ -105,20 +131,21 @@ impl Real for f64 {
             BinaryOp::Divide => a / b,
             BinaryOp::Remainder => a % b,
             BinaryOp::Atan2 => libm::atan2(a, b),
-            BinaryOp::Max => a.max(b),
-            BinaryOp::Min => a.min(b),
+            BinaryOp::Max => larger(a, b),
+            BinaryOp::Min => smaller(a, b),
             BinaryOp::Pow => libm::pow(a, b),
             BinaryOp::Step => f64::from(u8::from(a <= b)),
         }
     }
 
+    #[inline]
     fn ternary(op: TernaryOp, a: f64, b: f64, c: f64) -> f64 {
         match op {
-            TernaryOp::Clamp => a.max(b).min(c),
+            TernaryOp::Clamp => smaller(larger(a, b), c),
             TernaryOp::Fma => a.mul_add(b, c),
             TernaryOp::Mix => a * (1.0 - c) + b * c,
             TernaryOp::Smoothstep => {
-                let t = ((c - a) / (b - a)).max(0.0).min(1.0);
+                let t = smaller(larger((c - a) / (b - a), 0.0), 1.0);
                 t * t * (3.0 - 2.0 * t)
             }
         }
@@ -126,14 +153,17 @@ impl Real for f64 {
 }
 
 impl Real for f32 {
+    #[inline]
     fn from_f64(value: f64) -> Self {
         value as f32
     }
 
+    #[inline]
     fn to_f64(self) -> f64 {
         f64::from(self)
     }
 
+    #[inline]
     fn unary(op: UnaryOp, a: f32) -> f32 {
         match op {
             UnaryOp::Negate => -a,
@@ -143,21 +173,23 @@ impl Real for f32 {
         }
     }
 
+    #[inline]
     fn binary(op: BinaryOp, a: f32, b: f32) -> f32 {
         match op {
             BinaryOp::Add => a + b,
             BinaryOp::Subtract => a - b,
             BinaryOp::Multiply => a * b,
             BinaryOp::Divide => a / b,
-            BinaryOp::Max => a.max(b),
-            BinaryOp::Min => a.min(b),
+            BinaryOp::Max => larger(a, b),
+            BinaryOp::Min => smaller(a, b),
             _ => f64::binary(op, f64::from(a), f64::from(b)) as f32,
         }
     }
 
+    #[inline]
     fn ternary(op: TernaryOp, a: f32, b: f32, c: f32) -> f32 {
         match op {
-            TernaryOp::Clamp => a.max(b).min(c),
+            TernaryOp::Clamp => smaller(larger(a, b), c),
             TernaryOp::Fma => a.mul_add(b, c),
             _ => f64::ternary(op, f64::from(a), f64::from(b), f64::from(c)) as f32,
         }
@@ -177,6 +209,10 @@ mod tests {
         assert_eq!(f32::binary(BinaryOp::Remainder, -5.5, 2.0), -1.5);
         assert_eq!(f32::ternary(TernaryOp::Mix, 1.0, 3.0, 0.25), 1.5);
         assert!(f32::unary(UnaryOp::Sign, f32::NAN).is_nan());
+        assert_eq!(f32::binary(BinaryOp::Max, 0.0, -0.0).to_bits(), 0.0_f32.to_bits());
+        assert_eq!(f32::binary(BinaryOp::Max, -0.0, 0.0).to_bits(), (-0.0_f32).to_bits());
+        assert_eq!(f32::binary(BinaryOp::Min, f32::NAN, 1.0), 1.0);
+        assert_eq!(f32::binary(BinaryOp::Min, 1.0, f32::NAN), 1.0);
         assert!(!Comparison::LessEqual.holds(f32::NAN, 0.0));
     }
 }

@@ -1,0 +1,372 @@
+//! What is left of a program once the plain discrete inputs are known.
+//!
+//! For one discrete state most guards are decided. The [`Residual`] of a state
+//! is the small decision tree that remains: fetches, tests of fetched levels,
+//! comparisons, and leaves whose expressions contain no selection. Terms and
+//! trees are interned, so states that mean the same share one tree.
+//!
+//! This does not go through [`Pool`](crate::program::Pool)'s constructors. They fold constants in
+//! `f64` and drop conditions that cannot matter to the value, either of which
+//! would differ from the reference: in rounding, or in what is fetched.
+
+use std::collections::HashMap;
+use std::marker::PhantomData;
+
+use super::columns::Path;
+use crate::program::{
+    BinaryOp, Comparison, Cond, CondId, Domain, ExprId, InputId, InputSet, LevelSet, Node, Number, Program, Real,
+    TernaryOp, UnaryOp,
+};
+
+/// Most nodes of one tree; a state that needs more is left to the scalar interpreter.
+const MAX_NODES: usize = 4096;
+
+/// Most tests one after the other.
+const MAX_TESTS: usize = 256;
+
+/// Most terms visited for one tree.
+const MAX_STEPS: usize = 1 << 20;
+
+/// A term in a [`Residual`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct TermId(u32);
+
+impl TermId {
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// An expression without selections.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Term {
+    Const(Number),
+    Input(InputId),
+    Unary(UnaryOp, TermId),
+    Binary(BinaryOp, TermId, TermId),
+    Ternary(TernaryOp, TermId, TermId, TermId),
+}
+
+/// A tree in a [`Residual`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct TreeId(u32);
+
+impl TreeId {
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What remains to be done.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum Tree {
+    /// Fetch the input, then go on.
+    Need(InputId, TreeId),
+    /// Does the fetched input have one of the levels?
+    Level(InputId, LevelSet, [TreeId; 2]),
+    /// Does the comparison hold?
+    Compare(Comparison, TermId, TermId, [TreeId; 2]),
+    /// The result: the number of the path, and a term per component.
+    Leaf(u32, Vec<TermId>),
+    /// Too large to write down.
+    Scalar,
+}
+
+/// Numbers paths.
+#[derive(Debug, Default)]
+pub(super) struct Paths {
+    list: Vec<Path>,
+    index: HashMap<Path, u32>,
+}
+
+impl Paths {
+    pub(super) fn number(&mut self, path: Path) -> u32 {
+        *self.index.entry(path).or_insert_with(|| {
+            self.list.push(path);
+            self.list.len() as u32 - 1
+        })
+    }
+}
+
+/// Specialises a program, state by state.
+#[derive(Debug)]
+pub(super) struct Residual<'p, T> {
+    program: &'p Program,
+    terms: Vec<Term>,
+    term_index: HashMap<Term, TermId>,
+    trees: Vec<Tree>,
+    tree_index: HashMap<Tree, TreeId>,
+    paths: Paths,
+    /// Terms of expressions, valid while one [`Known`] does not change.
+    memo: HashMap<ExprId, TermId>,
+    nodes: usize,
+    steps: usize,
+    precision: PhantomData<T>,
+}
+
+/// What is known on the way to a place in the tree.
+#[derive(Debug, Clone)]
+struct Known {
+    levels: Vec<LevelSet>,
+    comparisons: Vec<((Comparison, TermId, TermId), bool)>,
+    fetched: InputSet,
+    /// Rows and lines before these are known not to apply.
+    row: usize,
+    line: usize,
+    tests: usize,
+}
+
+/// Why a walk could not go on.
+enum Stop {
+    Need(InputId),
+    Level(InputId, LevelSet),
+    Compare(Comparison, TermId, TermId),
+    TooLarge,
+}
+
+impl<'p, T: Real> Residual<'p, T> {
+    pub(super) fn new(program: &'p Program) -> Self {
+        Self {
+            program,
+            terms: Vec::new(),
+            term_index: HashMap::new(),
+            trees: Vec::new(),
+            tree_index: HashMap::new(),
+            paths: Paths::default(),
+            memo: HashMap::new(),
+            nodes: 0,
+            steps: 0,
+            precision: PhantomData,
+        }
+    }
+
+    pub(super) fn terms(&self) -> &[Term] {
+        &self.terms
+    }
+
+    pub(super) fn trees(&self) -> &[Tree] {
+        &self.trees
+    }
+
+    pub(super) fn paths(&self) -> &Vec<Path> {
+        &self.paths.list
+    }
+
+    /// The trees, and the paths to add to for those that are left to the scalar interpreter.
+    pub(super) fn parts(&mut self) -> (&[Tree], &mut Paths) {
+        (&self.trees, &mut self.paths)
+    }
+
+    /// The tree of a state, given as the levels of all inputs that are not fetched.
+    pub(super) fn specialise(&mut self, levels: &[u8]) -> TreeId {
+        let known = |(id, input): (InputId, &crate::program::Input)| match &input.domain {
+            Domain::Discrete(all) if input.fetched.is_some() => LevelSet::all(all.count()),
+            _ => LevelSet::one(levels[id.index()]),
+        };
+        let known = Known {
+            levels: self.program.input_ids().map(known).collect(),
+            comparisons: Vec::new(),
+            fetched: InputSet::default(),
+            row: 0,
+            line: 0,
+            tests: 0,
+        };
+        (self.nodes, self.steps) = (0, 0);
+        self.explore(known).unwrap_or_else(|| self.tree(Tree::Scalar))
+    }
+
+    /// Walks the program as far as it is decided, and from there in both directions.
+    fn explore(&mut self, mut known: Known) -> Option<TreeId> {
+        self.nodes += 1;
+        known.tests += 1;
+        if self.nodes > MAX_NODES || known.tests > MAX_TESTS {
+            return None;
+        }
+        self.memo.clear();
+        let tree = match self.walk(&mut known) {
+            Ok(leaf) => leaf,
+            Err(Stop::TooLarge) => return None,
+            Err(Stop::Need(input)) => {
+                known.fetched = known.fetched.or(InputSet::one(input));
+                Tree::Need(input, self.explore(known)?)
+            }
+            Err(Stop::Level(input, set)) => {
+                let mut other = known.clone();
+                known.levels[input.index()].0 &= set.0;
+                other.levels[input.index()].0 &= !set.0;
+                match [self.explore(known)?, self.explore(other)?] {
+                    [yes, no] if yes == no => return Some(yes),
+                    sides => Tree::Level(input, set, sides),
+                }
+            }
+            Err(Stop::Compare(op, a, b)) => {
+                let mut other = known.clone();
+                known.comparisons.push(((op, a, b), true));
+                other.comparisons.push(((op, a, b), false));
+                match [self.explore(known)?, self.explore(other)?] {
+                    [yes, no] if yes == no => return Some(yes),
+                    sides => Tree::Compare(op, a, b, sides),
+                }
+            }
+        };
+        Some(self.tree(tree))
+    }
+
+    fn walk(&mut self, known: &mut Known) -> Result<Tree, Stop> {
+        let program = self.program;
+        while let Some(row) = program.rows.get(known.row) {
+            if !self.holds(known, row.guard)? {
+                known.row += 1;
+                continue;
+            }
+            while let Some(line) = row.lines.get(known.line) {
+                if self.holds(known, line.condition)? {
+                    return self.leaf(known, Some(known.row), Some(known.line), &line.values);
+                }
+                known.line += 1;
+            }
+            return self.leaf(known, Some(known.row), None, &program.default);
+        }
+        self.leaf(known, None, None, &program.default)
+    }
+
+    fn leaf(
+        &mut self,
+        known: &Known,
+        row: Option<usize>,
+        line: Option<usize>,
+        values: &[ExprId],
+    ) -> Result<Tree, Stop> {
+        let terms = values.iter().map(|value| self.number(known, *value)).collect::<Result<_, _>>()?;
+        Ok(Tree::Leaf(self.paths.number(Path { row, line, fetched: known.fetched }), terms))
+    }
+
+    fn need(&self, known: &Known, input: InputId) -> Result<(), Stop> {
+        match self.program.fetched.contains(input) && !known.fetched.contains(input) {
+            true => Err(Stop::Need(input)),
+            false => Ok(()),
+        }
+    }
+
+    fn step(&mut self) -> Result<(), Stop> {
+        self.steps += 1;
+        if self.steps > MAX_STEPS { Err(Stop::TooLarge) } else { Ok(()) }
+    }
+
+    /// Follows [`Interpreter::holds`](super::Interpreter::holds) step by step.
+    fn holds(&mut self, known: &Known, condition: CondId) -> Result<bool, Stop> {
+        self.step()?;
+        match self.program.pool.cond(condition) {
+            Cond::Const(value) => Ok(*value),
+            Cond::Level(input, set) => {
+                self.need(known, *input)?;
+                let possible = known.levels[input.index()].0;
+                match possible & set.0 {
+                    0 => Ok(false),
+                    some if some == possible => Ok(true),
+                    some => Err(Stop::Level(*input, LevelSet(some))),
+                }
+            }
+            Cond::Compare(op, a, b) => {
+                let (a, b) = (self.number(known, *a)?, self.number(known, *b)?);
+                if let (Some(a), Some(b)) = (self.constant(a), self.constant(b)) {
+                    return Ok(op.holds(a, b));
+                }
+                let decided = known.comparisons.iter().find(|(test, _)| *test == (*op, a, b));
+                decided.map(|(_, outcome)| *outcome).ok_or(Stop::Compare(*op, a, b))
+            }
+            Cond::Not(a) => Ok(!self.holds(known, *a)?),
+            Cond::And(parts) => {
+                for part in parts {
+                    if !self.holds(known, *part)? {
+                        return Ok(false);
+                    }
+                }
+                Ok(true)
+            }
+            Cond::Or(parts) => {
+                for part in parts {
+                    if self.holds(known, *part)? {
+                        return Ok(true);
+                    }
+                }
+                Ok(false)
+            }
+            Cond::If(condition, then, other) => match self.holds(known, *condition)? {
+                true => self.holds(known, *then),
+                false => self.holds(known, *other),
+            },
+        }
+    }
+
+    /// Follows [`Interpreter::number`](super::Interpreter::number) step by step.
+    fn number(&mut self, known: &Known, expr: ExprId) -> Result<TermId, Stop> {
+        if let Some(term) = self.memo.get(&expr) {
+            return Ok(*term);
+        }
+        self.step()?;
+        let term = match self.program.pool.node(expr) {
+            Node::Const(number) => self.fixed(T::from_f64(number.get())),
+            Node::Input(input) => {
+                self.need(known, input)?;
+                self.term(Term::Input(input))
+            }
+            Node::Result => self.fixed(T::from_f64(f64::NAN)),
+            Node::Unary(op, a) => {
+                let a = self.number(known, a)?;
+                match self.constant(a) {
+                    Some(a) => self.fixed(T::unary(op, a)),
+                    None => self.term(Term::Unary(op, a)),
+                }
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.number(known, a)?, self.number(known, b)?);
+                match (self.constant(a), self.constant(b)) {
+                    (Some(a), Some(b)) => self.fixed(T::binary(op, a, b)),
+                    _ => self.term(Term::Binary(op, a, b)),
+                }
+            }
+            Node::Ternary(op, a, b, c) => {
+                let (a, b, c) = (self.number(known, a)?, self.number(known, b)?, self.number(known, c)?);
+                match (self.constant(a), self.constant(b), self.constant(c)) {
+                    (Some(a), Some(b), Some(c)) => self.fixed(T::ternary(op, a, b, c)),
+                    _ => self.term(Term::Ternary(op, a, b, c)),
+                }
+            }
+            Node::Select(condition, then, other) => match self.holds(known, condition)? {
+                true => self.number(known, then)?,
+                false => self.number(known, other)?,
+            },
+        };
+        self.memo.insert(expr, term);
+        Ok(term)
+    }
+
+    fn constant(&self, term: TermId) -> Option<T> {
+        match self.terms[term.index()] {
+            Term::Const(number) => Some(T::from_f64(number.get())),
+            _ => None,
+        }
+    }
+
+    fn fixed(&mut self, value: T) -> TermId {
+        self.term(Term::Const(Number::new(value.to_f64())))
+    }
+
+    fn term(&mut self, term: Term) -> TermId {
+        *self.term_index.entry(term).or_insert_with(|| {
+            self.terms.push(term);
+            TermId(self.terms.len() as u32 - 1)
+        })
+    }
+
+    fn tree(&mut self, tree: Tree) -> TreeId {
+        if let Some(id) = self.tree_index.get(&tree) {
+            return *id;
+        }
+        let id = TreeId(self.trees.len() as u32);
+        self.trees.push(tree.clone());
+        self.tree_index.insert(tree, id);
+        id
+    }
+}
