@@ -81,12 +81,24 @@ impl<T: Real> Steps<'_, '_, T> {
             Node::Select(condition, then, other) => {
                 let holds = self.witness.interpreter.holds(condition)?;
                 let chosen = if holds { then } else { other };
+                let before = self.list.len();
                 let formula = self.operand(chosen)?;
                 let tested = self.witness.tested(condition)?;
                 let because = match holds {
                     true => format!("as {}", tested.condition),
                     false => format!("as {} fails ({})", tested.condition, tested.facts.join(", ")),
                 };
+                // A side that was computed just for this choice is the choice's own step.
+                if self.list.len() > before
+                    && formula.starts_with('#')
+                    && let Some(last) = self.list.pop()
+                {
+                    self.anonymous -= 1;
+                    let because = last.because.map_or(because.clone(), |inner| format!("{because}, {inner}"));
+                    let name = self.push(expr, last.formula, last.numbers, Some(because))?;
+                    self.done.insert(chosen, name.clone());
+                    return Ok(name);
+                }
                 return self.push(expr, formula, None, Some(because));
             }
         };

@@ -32,7 +32,7 @@ fn inputs(out: &mut String, program: &Program, explanation: &Explanation, assume
         let remark = match (assumed.contains(id), input.fetched, explanation.fetched.contains(*id)) {
             (true, ..) => "by default".to_owned(),
             (false, Some(cost), true) => format!("fetched, {cost} texture reads"),
-            (false, Some(_), false) => "never fetched".to_owned(),
+            (false, Some(_), false) => "given, but not needed".to_owned(),
             (false, None, _) => String::new(),
         };
         line(out, &format!("{:width$} = {value:value_width$}  {remark}", input.name));
@@ -60,9 +60,8 @@ fn taken(out: &mut String, program: &Program, explanation: &Explanation) {
     let Some(row) = explanation.row.map(|row| &program.rows[row]) else { return };
     let _ = writeln!(out, "\ncase {}{}", row.id, separated(": ", &row.doc));
     line(out, &format!("{}:{}{}", program.source.name, program.line(row.span), separated(", section ", &row.section)));
-    let width = explanation.guard.iter().map(|tested| tested.condition.chars().count()).max().unwrap_or(0).min(40);
     for tested in &explanation.guard {
-        line(out, &format!("{:width$}  {}", tested.condition, tested.facts.join(", ")));
+        line(out, &holds(tested));
     }
     for erratum in &row.errata {
         line(out, &format!("erratum {}: printed {:?}, meant {:?}", erratum.number, erratum.printed, erratum.meant));
@@ -74,10 +73,10 @@ fn taken(out: &mut String, program: &Program, explanation: &Explanation) {
         }
         match explanation.line {
             Some(number) => {
-                let reasons = explanation.line_condition.iter().map(|t| t.condition.as_str()).collect::<Vec<_>>();
-                let why = if reasons.is_empty() { "no condition".to_owned() } else { reasons.join(" && ") };
-                let place = program.line(row.lines[number].span);
-                line(out, &format!("line {}: yes, {why} ({}:{place})", number + 1, program.source.name));
+                let reasons: Vec<_> = explanation.line_condition.iter().map(holds).collect();
+                let why = if reasons.is_empty() { "it has no condition".to_owned() } else { reasons.join(" && ") };
+                line(out, &format!("line {}: yes, {why}", number + 1));
+                line(out, &format!("{}:{}", program.source.name, program.line(row.lines[number].span)));
             }
             None => line(out, "none applies: the default counts"),
         }
@@ -130,6 +129,20 @@ fn value(out: &mut String, program: &Program, explanation: &Explanation) {
     let by = explanation.row.map_or("default".to_owned(), |row| format!("case {}", program.rows[row].id));
     let result = sentence(&program.output, &explanation.values, explanation.precision);
     let _ = writeln!(out, "result:  {result} ({by}, {precision})");
+}
+
+/// A condition that holds, with the facts unless they only repeat it.
+fn holds(tested: &Tested) -> String {
+    let facts = tested.facts.join(", ");
+    let repeats = |fact: &str| {
+        fact == tested.condition.replace(" == ", " is ")
+            || fact.strip_suffix(" is true") == Some(&tested.condition)
+            || fact.strip_suffix(" is false").is_some_and(|name| tested.condition.strip_prefix('!') == Some(name))
+    };
+    match facts.is_empty() || (tested.facts.len() == 1 && repeats(&facts)) {
+        true => tested.condition.clone(),
+        false => format!("{} ({facts})", tested.condition),
+    }
 }
 
 fn fails(tested: &Tested) -> String {
