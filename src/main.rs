@@ -1,2 +1,5 @@
-//! The `umbrage` command.
-fn main() {}
+//! The `umbrage` command: everything it does is in [`umbrage::cli`].
+
+fn main() -> std::process::ExitCode {
+    umbrage::cli::main()
+}

@@ -31,6 +31,8 @@ pub(super) struct Lowering<'t> {
     pub(super) named_index: HashMap<&'t str, usize>,
     pub(super) named_terms: Vec<Option<Term>>,
     pub(super) resolving: Vec<usize>,
+    /// How many expressions are being lowered inside each other.
+    pub(super) nesting: u32,
     input_index: HashMap<&'t str, InputId>,
     set_index: HashMap<&'t str, SetId>,
     case_index: HashMap<u32, usize>,
@@ -62,6 +64,7 @@ pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
         named_index: HashMap::new(),
         named_terms: vec![None; table.names.len()],
         resolving: Vec::new(),
+        nesting: 0,
         input_index: HashMap::new(),
         set_index: HashMap::new(),
         case_index: HashMap::new(),
@@ -664,4 +667,31 @@ fn literal(input: &Input, expr: &Expr) -> Result<Value> {
 /// A count in words that stay short: `1152`, `about 10^12`.
 fn approximate(count: f64) -> String {
     if count < 1e7 { format!("{count}") } else { format!("about 10^{:.0}", count.log10()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diag::Source;
+    use crate::program::Program;
+    use crate::table::Table;
+
+    /// The deepest accepted nesting, and one beyond any bound, on a thread with little stack.
+    #[test]
+    fn long_chains_of_names_are_refused_in_time() {
+        let nested = format!("{}x{}", "if s { ".repeat(28), " } else { 0 }".repeat(28));
+        let chain = |length: usize| -> String {
+            (0..length).map(|i| format!("\"n{i}\": \"{}\",", nested.replace('x', &format!("n{}", i + 1)))).collect()
+        };
+        for (length, fits) in [(3, true), (1_000, false)] {
+            let text = format!(
+                r#"Table(language: 1, name: "t", hit_policy: First,
+                    inputs: {{"s": Bool(), "x": Range(from: 0, to: 1)}},
+                    names: {{{} "n{length}": "x"}},
+                    output: Number(), cases: [Case(id: 1, when: "s", value: "n0")], default: 0)"#,
+                chain(length)
+            );
+            let program = Table::parse(Source::new("t", text)).and_then(|table| Program::check(&table));
+            assert_eq!(program.is_ok(), fits, "{:?}", program.err().map(|e| e.diagnostics[0].message.clone()));
+        }
+    }
 }

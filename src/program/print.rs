@@ -109,6 +109,21 @@ impl Printer<'_> {
         }
     }
 
+    /// `!domV`, `H != both`: denials that are written without parentheses.
+    fn write_denial(&self, out: &mut String, id: CondId) -> bool {
+        let Cond::Level(input, levels) = self.pool.cond(id) else { return false };
+        let input = &self.inputs[input.index()];
+        let Domain::Discrete(known) = &input.domain else { return false };
+        let mut members = levels.iter().filter_map(|l| known.names.get(usize::from(l)));
+        let (Some(only), None) = (members.next(), members.next()) else { return false };
+        let _ = match (known.kind, only.as_str()) {
+            (LevelKind::Bool, "true") => write!(out, "!{}", input.name),
+            (LevelKind::Bool, _) => write!(out, "{}", input.name),
+            (_, level) => write!(out, "{} != {level}", input.name),
+        };
+        true
+    }
+
     fn write_cond(&self, out: &mut String, id: CondId, outer: u8) {
         match self.pool.cond(id) {
             Cond::Const(value) => {
@@ -139,6 +154,7 @@ impl Printer<'_> {
                 });
                 self.write_expr(out, *b, 4);
             }
+            Cond::Not(a) if self.write_denial(out, *a) => {}
             Cond::Not(a) => {
                 out.push_str("!(");
                 self.write_cond(out, *a, 0);

@@ -21,6 +21,11 @@ pub(super) type Result<T> = std::result::Result<T, Diagnostic>;
 const MAX_DEPTH: u32 = 200;
 const MAX_SIZE: u32 = 50_000;
 
+/// Deepest nesting of expressions while names and references are followed. Names
+/// can form long chains, each link adding the depth of its own expression, and
+/// the stack must hold them all before their size is known.
+const MAX_NESTING: u32 = 256;
+
 /// A level that depends on inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LevelTerm {
@@ -83,7 +88,15 @@ impl Env {
 impl Lowering<'_> {
     /// Lowers an expression.
     pub(super) fn term(&mut self, expr: &Expr, env: &Env, expected: Expected) -> Result<Term> {
-        let term = self.term_inner(expr, env, expected)?;
+        if self.nesting == MAX_NESTING {
+            return Err(Diagnostic::error(codes::TOO_DEEP, "names and references are nested too deeply")
+                .at(expr.span, format!("level {MAX_NESTING} is reached here"))
+                .help("shorten the chain of names that use each other and lead here"));
+        }
+        self.nesting += 1;
+        let term = self.term_inner(expr, env, expected);
+        self.nesting -= 1;
+        let term = term?;
         self.check_size(&term, expr.span)?;
         Ok(term)
     }
@@ -602,7 +615,7 @@ impl Lowering<'_> {
         match name {
             "f32" => {
                 arity(1)?;
-                return self.to_number(&arguments[0], env);
+                return self.number_of(&arguments[0], env);
             }
             "select" => {
                 arity(3)?;
@@ -665,7 +678,7 @@ impl Lowering<'_> {
     }
 
     /// `f32(level)`, `f32(condition)`, `f32(number)`.
-    fn to_number(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+    fn number_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         match self.term(argument, env, Expected::Anything)? {
             Term::Number(number) => Ok(Term::Number(number)),
             Term::Level(set, term) => {

@@ -1,0 +1,126 @@
+//! `umbrage check`: tables, their findings and their examples.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::report::{self, Format, Report};
+use super::{Outcome, Result};
+use crate::analyse;
+use crate::diag::{Diagnostic, Failure, Severity, codes};
+use crate::program::Program;
+use crate::table::io_reason;
+
+/// Arguments of `umbrage check`.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Tables, or directories that contain tables (files named *.ron, at any depth)
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+}
+
+/// Checks every table; a bad one does not keep the others from being checked.
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    let mut out = io::stdout().lock();
+    let mut outcome = Outcome::Clean;
+    for path in &arguments.paths {
+        let files = match tables(path) {
+            Ok(files) => files,
+            Err(failure) => {
+                outcome = outcome.max(show(&mut out, report, &failure)?);
+                continue;
+            }
+        };
+        for file in files {
+            outcome = outcome.max(table(&mut out, report, &file)?);
+        }
+    }
+    out.flush()?;
+    Ok(outcome)
+}
+
+/// Checks one table and says how that went.
+fn table(out: &mut impl Write, report: &Report, file: &Path) -> Result<Outcome> {
+    let program = match Program::read(file) {
+        Ok(program) => program,
+        Err(failure) => {
+            let outcome = show(out, report, &failure)?;
+            if report.format == Format::Human {
+                let count = failure.diagnostics.len();
+                writeln!(out, "FAIL  {}: {}", failure.source.name, plural(count, "error"))?;
+            }
+            return Ok(outcome);
+        }
+    };
+    let failure = Failure { source: program.source.clone(), diagnostics: analyse::findings(&program) };
+    let outcome = show(out, report, &failure)?;
+    if report.format == Format::Human {
+        let verdict = match outcome {
+            Outcome::Clean => "ok   ",
+            Outcome::Findings => "warn ",
+            Outcome::Failed => "FAIL ",
+        };
+        let fetched = program.fetched.iter().count();
+        let inputs = plural(program.inputs.len(), "input");
+        writeln!(
+            out,
+            "{verdict} {}: {}, {inputs}{}, {}, {} run",
+            program.source.name,
+            plural(program.rows.len(), "case"),
+            if fetched > 0 { format!(" ({fetched} fetched)") } else { String::new() },
+            plural(program.states.count(), "state"),
+            plural(program.examples.len(), "example"),
+        )?;
+    }
+    Ok(outcome)
+}
+
+/// Shows diagnostics. As JSON they are what the command is asked for, so they go to standard output.
+fn show(out: &mut impl Write, report: &Report, failure: &Failure) -> Result<Outcome> {
+    match report.format {
+        Format::Json => out.write_all(report::lines(&failure.source, &failure.diagnostics).as_bytes())?,
+        Format::Human => report.failure(failure),
+    }
+    Ok(match failure.diagnostics.iter().map(|d| d.severity).max() {
+        Some(Severity::Error) => Outcome::Failed,
+        Some(Severity::Warning) => Outcome::Findings,
+        Some(Severity::Note) | None => Outcome::Clean,
+    })
+}
+
+fn plural(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// The table itself, or every table below a directory, sorted.
+pub(super) fn tables(path: &Path) -> std::result::Result<Vec<PathBuf>, Failure> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let mut found = Vec::new();
+    let mut pending = vec![path.to_owned()];
+    while let Some(directory) = pending.pop() {
+        let unreadable = |error: io::Error| {
+            let name = directory.to_string_lossy().replace('\\', "/");
+            let message = format!("cannot be read: {}", io_reason(&error));
+            Failure::bare(name, Diagnostic::error(codes::UNREADABLE, message).help("check its permissions"))
+        };
+        for entry in std::fs::read_dir(&directory).map_err(unreadable)? {
+            let entry = entry.map_err(unreadable)?;
+            // Links to directories are not followed: they may form a circle.
+            if entry.file_type().map_err(unreadable)?.is_dir() {
+                pending.push(entry.path());
+            } else if entry.path().extension().is_some_and(|e| e == "ron") {
+                found.push(entry.path());
+            }
+        }
+    }
+    if found.is_empty() {
+        let name = path.to_string_lossy().replace('\\', "/");
+        return Err(Failure::bare(
+            name,
+            Diagnostic::error(codes::UNREADABLE, "contains no tables").help("tables are files named *.ron"),
+        ));
+    }
+    found.sort();
+    Ok(found)
+}

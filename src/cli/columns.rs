@@ -1,0 +1,225 @@
+//! Columns of inputs: CSV or JSON → points of a program.
+//!
+//! The whole text is kept, so that a bad value can be shown where it stands;
+//! points are made from it in chunks, so that a million rows need little more
+//! than their text.
+
+use std::path::Path;
+
+use super::{csv_input, json_input};
+use crate::diag::{Diagnostic, Failure, Source, Span, codes};
+use crate::program::{Input, InputId, Program, Value};
+use crate::table::{nearest, read_text};
+
+/// Rows that are read and evaluated together.
+pub(super) const CHUNK: usize = 1 << 16;
+
+/// Most problems that are shown.
+const SHOWN: usize = 20;
+
+/// Largest accepted input, in bytes.
+const MAX_BYTES: u64 = 4 << 30;
+
+/// Points of a program, one per row of the input.
+pub(super) struct Points {
+    width: usize,
+    values: Vec<Option<Value>>,
+    places: Vec<Span>,
+}
+
+impl Points {
+    /// No points, of a program with this many inputs.
+    pub(super) fn new(width: usize) -> Self {
+        Self { width, values: Vec::new(), places: Vec::new() }
+    }
+
+    /// Forgets all points.
+    pub(super) fn clear(&mut self) {
+        self.values.clear();
+        self.places.clear();
+    }
+
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Adds a point with nothing given, from the row that stands at `place`.
+    pub(super) fn push(&mut self, place: Span) -> &mut [Option<Value>] {
+        self.places.push(place);
+        let start = self.values.len();
+        self.values.resize(start + self.width, None);
+        &mut self.values[start..]
+    }
+
+    /// Takes the last point back.
+    pub(super) fn pop(&mut self) {
+        self.places.pop();
+        self.values.truncate(self.places.len() * self.width);
+    }
+
+    /// One value per input, in the order of the program's inputs.
+    pub(super) fn point(&self, index: usize) -> &[Option<Value>] {
+        &self.values[index * self.width..][..self.width]
+    }
+
+    /// Where the row of a point stands.
+    pub(super) fn place(&self, index: usize) -> Span {
+        self.places[index]
+    }
+}
+
+/// What is wrong with the rows; a bounded number of diagnostics and a count.
+#[derive(Default)]
+pub(super) struct Problems {
+    shown: Vec<Diagnostic>,
+    more: usize,
+}
+
+impl Problems {
+    /// Notes one more; it is only described if it will be shown.
+    pub(super) fn push(&mut self, describe: impl FnOnce() -> Diagnostic) {
+        if self.shown.len() < SHOWN {
+            self.shown.push(describe());
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// Whether there is none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.shown.is_empty()
+    }
+
+    /// All of them as the reason of a failure.
+    pub(super) fn into_failure(mut self, source: std::sync::Arc<Source>) -> Failure {
+        if self.more > 0 {
+            self.shown.push(Diagnostic::error(codes::BAD_VALUE, format!("and {} more like these", self.more)));
+        }
+        Failure { source, diagnostics: self.shown }
+    }
+}
+
+/// Reads rows, a chunk at a time.
+pub(super) enum Columns<'s> {
+    Csv(csv_input::Reader<'s>),
+    Json(json_input::Reader<'s>),
+}
+
+impl<'s> Columns<'s> {
+    /// Reads what comes before the first row.
+    pub(super) fn open(program: &'s Program, source: &'s Source) -> Result<Self, Vec<Diagnostic>> {
+        // A CSV header cannot begin with a bracket, as no input can.
+        let is_json = has_extension(Path::new(&source.name), "json")
+            || (source.name == STDIN && source.text.trim_start().starts_with('['));
+        Ok(match is_json {
+            true => Columns::Json(json_input::Reader::open(program, source)?),
+            false => Columns::Csv(csv_input::Reader::open(program, source)?),
+        })
+    }
+
+    /// Reads up to [`CHUNK`] further rows; returns whether there were any.
+    pub(super) fn next(&mut self, points: &mut Points, problems: &mut Problems) -> bool {
+        match self {
+            Columns::Csv(reader) => reader.next(points, problems),
+            Columns::Json(reader) => reader.next(points, problems),
+        }
+    }
+}
+
+const STDIN: &str = "standard input";
+
+/// Whether a file is named `….extension`.
+pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+}
+
+/// Reads the text of the rows, `-` being standard input.
+pub(super) fn read(path: &Path) -> Result<std::sync::Arc<Source>, Failure> {
+    if path.as_os_str() != "-" {
+        let name = path.to_string_lossy().replace('\\', "/");
+        return Ok(Source::new(name, read_text(path, MAX_BYTES)?));
+    }
+    let fail =
+        |message: String, help: &str| Failure::bare(STDIN, Diagnostic::error(codes::UNREADABLE, message).help(help));
+    let mut bytes = Vec::new();
+    std::io::Read::read_to_end(&mut std::io::stdin().lock(), &mut bytes).map_err(|e| {
+        fail(format!("cannot be read: {}", crate::table::io_reason(&e)), "pipe the rows into the command")
+    })?;
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(Source::new(STDIN, text)),
+        Err(error) => {
+            let at = error.utf8_error().valid_up_to();
+            Err(fail(format!("is not UTF-8 text (byte {at})"), "save it as UTF-8"))
+        }
+    }
+}
+
+/// The input that a column is for.
+pub(super) fn column(program: &Program, name: &str, span: Span) -> Result<InputId, Diagnostic> {
+    if let Some(input) = program.input(name) {
+        return Ok(input);
+    }
+    let message = format!("`{}` is not an input of `{}`", shorten(name), program.name);
+    let error = Diagnostic::error(codes::BAD_COLUMN, message).at(span, "unknown column");
+    Err(match nearest(name, program.inputs.iter().map(|i| i.name.as_str())) {
+        Some(close) => error.help(format!("did you mean `{close}`?")),
+        None => error.help(describe_columns(program)),
+    })
+}
+
+/// Refuses rows that leave out an input which is not fetched.
+pub(super) fn complete(program: &Program, given: impl Fn(InputId) -> bool, span: Span) -> Result<(), Diagnostic> {
+    let missing: Vec<String> = program
+        .input_ids()
+        .filter(|(id, input)| input.fetched.is_none() && !given(*id))
+        .map(|(_, input)| format!("`{}`", input.name))
+        .collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let what = if missing.len() == 1 { "the input" } else { "the inputs" };
+    let verb = if missing.len() == 1 { "is" } else { "are" };
+    Err(Diagnostic::error(codes::BAD_COLUMN, format!("{what} {} {verb} missing", missing.join(", ")))
+        .at(span, "not given here")
+        .help(describe_columns(program)))
+}
+
+/// Which columns a table takes.
+pub(super) fn describe_columns(program: &Program) -> String {
+    let list = |fetched: bool| {
+        let names = program.inputs.iter().filter(|i| i.fetched.is_some() == fetched).map(|i| i.name.as_str());
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let needed = format!("`{}` needs the inputs {}", program.name, list(false));
+    match program.fetched.is_empty() {
+        true => needed,
+        false => format!("{needed}; these are fetched and may be left out: {}", list(true)),
+    }
+}
+
+/// The value in one cell; absent if empty, which only fetched inputs may be.
+pub(super) fn cell(input: &Input, word: &str) -> Result<Option<Value>, String> {
+    match word {
+        "" if input.fetched.is_some() => Ok(None),
+        "" => Err(format!("`{}` has no value; only fetched inputs can be left out", input.name)),
+        _ if word.len() > 64 => Err(format!("`{}` is no value of `{}`", shorten(word), input.name)),
+        _ => input.parse(word).map(Some),
+    }
+}
+
+/// The beginning of a text that may be long or strange.
+pub(super) fn shorten(text: &str) -> String {
+    let mut shown: String = text.chars().take(40).flat_map(char::escape_debug).collect();
+    if text.chars().count() > 40 {
+        shown.push_str("...");
+    }
+    shown
+}
+
+/// The part of a place that is on its first line; the whole line, if the place is only a point.
+pub(super) fn first_line(text: &str, place: Span) -> Span {
+    let rest = &text[place.start..if place.end > place.start { place.end } else { text.len() }];
+    let end = rest.find(['\n', '\r']).unwrap_or(rest.len());
+    Span::new(place.start, place.start + end)
+}

@@ -1,0 +1,165 @@
+//! `umbrage explain`: why a table has the value it has at one point.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde_json::{Map, Value as Json, json};
+
+use super::columns;
+use super::report::{Format, Report};
+use super::{Outcome, PrecisionArgument, Result};
+use crate::diag::{Diagnostic, Failure, Source, Span, codes};
+use crate::explain::{self, Explanation, Needed, Tested, text};
+use crate::program::{InputId, Program, Value};
+use crate::show;
+
+/// Arguments of `umbrage explain`.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The table
+    table: PathBuf,
+    /// The point, as in H=left,dV=0.5; inputs that are left out have their default
+    #[arg(long, value_name = "INPUT=VALUE,...", default_value = "")]
+    at: String,
+    /// Floating-point type
+    #[arg(long, value_enum, default_value = "f32", value_name = "TYPE")]
+    precision: PrecisionArgument,
+}
+
+/// Explains one point.
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    let program = Program::read(&arguments.table)?;
+    let source = Source::new("--at", arguments.at.as_str());
+    let (point, assumed) = point(&program, &source)?;
+    let explanation = explain::explain(&program, &point, arguments.precision.into())
+        .map_err(|needed| needs(&program, &source, needed))?;
+    let text = match report.format {
+        Format::Human => text::render(&program, &explanation, &assumed),
+        Format::Json => format!("{}\n", object(&program, &explanation, &assumed)),
+    };
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(Outcome::Clean)
+}
+
+/// Reads `H=left,dV=0.5` and fills in defaults; returns which inputs those are.
+fn point(program: &Program, source: &Arc<Source>) -> std::result::Result<(Vec<Option<Value>>, Vec<InputId>), Failure> {
+    let mut point: Vec<Option<Value>> = vec![None; program.inputs.len()];
+    let mut places: Vec<Option<Span>> = vec![None; program.inputs.len()];
+    let mut errors = Vec::new();
+    let mut start = 0;
+    for part in source.text.split(',') {
+        let span = Span::new(start, start + part.len());
+        start = span.end + 1;
+        if part.trim().is_empty() {
+            continue;
+        }
+        let Some((name, word)) = part.split_once('=') else {
+            errors.push(
+                Diagnostic::error(codes::BAD_VALUE, format!("`{}` gives no value", columns::shorten(part.trim())))
+                    .at(span, "expected INPUT=VALUE")
+                    .help("write, for instance, --at H=left,dV=0.5"),
+            );
+            continue;
+        };
+        let input = match columns::column(program, name.trim(), Span::new(span.start, span.start + name.len())) {
+            Ok(input) => input,
+            Err(error) => {
+                errors.push(error);
+                continue;
+            }
+        };
+        if let Some(first) = places[input.index()].replace(span) {
+            let message = format!("`{}` is given twice", name.trim());
+            errors.push(
+                Diagnostic::error(codes::BAD_VALUE, message).at(span, "given again here").at(first, "first given here"),
+            );
+            continue;
+        }
+        match columns::cell(&program.inputs[input.index()], word.trim()) {
+            Ok(value) => point[input.index()] = value,
+            Err(message) => errors.push(
+                Diagnostic::error(codes::BAD_VALUE, message)
+                    .at(Span::new(span.start + name.len() + 1, span.end), "here"),
+            ),
+        }
+    }
+    let mut assumed = Vec::new();
+    for (id, input) in program.input_ids() {
+        // A fetched input that is not given is absent; that is the point of it.
+        if places[id.index()].is_some() || input.fetched.is_some() {
+            continue;
+        }
+        point[id.index()] = input.default;
+        assumed.push(id);
+        if input.default.is_none() {
+            errors.push(
+                Diagnostic::error(codes::BAD_VALUE, format!("`{}` is not given and has no default", input.name))
+                    .help(format!("give it a value, as in --at {}={}", input.name, sample(input))),
+            );
+        }
+    }
+    if errors.is_empty() { Ok((point, assumed)) } else { Err(Failure { source: source.clone(), diagnostics: errors }) }
+}
+
+/// Some value of an input, to show how one is written.
+fn sample(input: &crate::program::Input) -> String {
+    match &input.domain {
+        crate::program::Domain::Discrete(levels) => levels.names.join("|"),
+        crate::program::Domain::Continuous { lo, .. } => lo.to_string(),
+    }
+}
+
+fn needs(program: &Program, source: &Arc<Source>, needed: Needed) -> Failure {
+    let input = &program.inputs[needed.input.index()];
+    let who = match needed.row.map(|row| &program.rows[row]) {
+        Some(row) => format!("case {} ({}:{})", row.id, program.source.name, program.line(row.guard_span)),
+        None => "the default".to_owned(),
+    };
+    let error = Diagnostic::error(codes::NEEDS_FETCH, format!("{who} needs `{}` at this point", input.name))
+        .at(Span::new(0, source.text.len()), format!("`{}` is not given", input.name))
+        .help(format!("add {}={}: {}", input.name, sample(input), input.doc));
+    Failure::new(source.clone(), error)
+}
+
+fn object(program: &Program, explanation: &Explanation, assumed: &[InputId]) -> Json {
+    let tested = |t: &Tested| json!({"condition": t.condition, "facts": t.facts});
+    let all = |tests: &[Tested]| tests.iter().map(tested).collect::<Vec<_>>();
+    let mut inputs = Map::new();
+    for (id, input) in program.input_ids() {
+        if let Some(value) = explanation.point[id.index()] {
+            inputs.insert(input.name.clone(), Json::from(input.show(value)));
+        }
+    }
+    let names = |ids: &mut dyn Iterator<Item = InputId>| {
+        ids.map(|id| program.inputs[id.index()].name.clone()).collect::<Vec<_>>()
+    };
+    let refused = program.rows.iter().zip(&explanation.refused);
+    let steps = explanation.steps.iter().map(|step| {
+        json!({
+            "name": step.name, "formula": step.formula, "numbers": step.numbers,
+            "because": step.because, "value": step.value,
+        })
+    });
+    let row = explanation.row.map(|row| &program.rows[row]);
+    json!({
+        "table": program.name,
+        "inputs": inputs,
+        "defaults": names(&mut assumed.iter().copied()),
+        "refused": refused.map(|(row, t)| json!({"case": row.id, "fails": tested(t)})).collect::<Vec<_>>(),
+        "case": row.map_or(json!("default"), |row| json!(row.id)),
+        "file": program.source.name,
+        "line": row.map(|row| program.line(row.span)),
+        "section": row.map(|row| &row.section),
+        "doc": row.map(|row| &row.doc),
+        "guard": all(&explanation.guard),
+        "refused_lines": all(&explanation.refused_lines),
+        "value_line": explanation.line.map(|line| line + 1),
+        "value_condition": all(&explanation.line_condition),
+        "steps": steps.collect::<Vec<_>>(),
+        "fetched": names(&mut explanation.fetched.iter()),
+        "value": show::words(&program.output, &explanation.values, explanation.precision),
+    })
+}

@@ -1,0 +1,133 @@
+//! The command line: arguments, exit codes, and how things are said.
+//!
+//! Each subcommand is a file with its arguments and a `run` that returns an
+//! [`Outcome`]; what it computes lives in the library. Results go to standard
+//! output, messages to standard error.
+
+mod answers;
+mod check;
+mod columns;
+mod csv_input;
+mod eval;
+mod explain;
+mod json_input;
+mod output;
+mod report;
+
+use std::io;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::show::Precision;
+use report::{Color, Format, Report};
+
+#[derive(Parser)]
+#[command(name = "umbrage", version, about = "Compiles case tables into shaders that are proved equal to the table")]
+#[command(after_help = "Exit codes: 0 clean, 1 findings, 2 failure.")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+    /// Colours in messages
+    #[arg(long, global = true, value_enum, default_value = "auto", value_name = "WHEN")]
+    color: Color,
+    /// Form of messages: text for people, or one JSON object per line
+    #[arg(long, global = true, value_enum, default_value = "human", value_name = "FORM")]
+    message_format: Format,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Check tables and run their examples
+    Check(check::Arguments),
+    /// Evaluate a table over rows of inputs
+    Eval(eval::Arguments),
+    /// Say which case is taken at one point, why, and how its value comes about
+    Explain(explain::Arguments),
+}
+
+/// How a command ended that was able to do its work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Outcome {
+    /// Nothing to complain about.
+    Clean,
+    /// Warnings.
+    Findings,
+    /// Errors, which have been shown already.
+    Failed,
+}
+
+/// Why a command could not do its work.
+enum Error {
+    /// A mistake in what the user gave.
+    Failure(Failure),
+    /// Standard output could not be written.
+    Stdout(io::Error),
+}
+
+impl From<Failure> for Error {
+    fn from(failure: Failure) -> Self {
+        Error::Failure(failure)
+    }
+}
+
+impl From<io::Error> for Error {
+    fn from(error: io::Error) -> Self {
+        Error::Stdout(error)
+    }
+}
+
+type Result<T> = std::result::Result<T, Error>;
+
+/// The floating-point type to evaluate in, as an argument.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum PrecisionArgument {
+    /// Single, as on the GPU
+    F32,
+    /// Double
+    F64,
+}
+
+impl From<PrecisionArgument> for Precision {
+    fn from(argument: PrecisionArgument) -> Self {
+        match argument {
+            PrecisionArgument::F32 => Precision::F32,
+            PrecisionArgument::F64 => Precision::F64,
+        }
+    }
+}
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version are on standard output and not a failure; a pipe that is closed early is fine.
+            let _ = error.print();
+            return if error.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS };
+        }
+    };
+    let report = Report::new(arguments.color, arguments.message_format);
+    let result = match arguments.command {
+        Command::Check(arguments) => check::run(&arguments, &report),
+        Command::Eval(arguments) => eval::run(&arguments, &report),
+        Command::Explain(arguments) => explain::run(&arguments, &report),
+    };
+    match result {
+        Ok(Outcome::Clean) => ExitCode::SUCCESS,
+        Ok(Outcome::Findings) => ExitCode::from(1),
+        Ok(Outcome::Failed) => ExitCode::from(2),
+        Err(Error::Failure(failure)) => {
+            report.failure(&failure);
+            ExitCode::from(2)
+        }
+        // Whoever read our output has seen enough.
+        Err(Error::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Error::Stdout(error)) => {
+            let message = format!("cannot be written: {}", crate::table::io_reason(&error));
+            report.failure(&Failure::bare("standard output", Diagnostic::error(codes::UNWRITABLE, message)));
+            ExitCode::from(2)
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! The computation of a value, one operation at a time, operands first.
+
+use std::collections::{HashMap, HashSet};
+
+use super::Witness;
+use crate::eval::NeedsFetch;
+use crate::program::{BINARY_FUNCTIONS, BinaryOp, ExprId, Node, Real, TERNARY_FUNCTIONS, UNARY_FUNCTIONS, UnaryOp};
+use crate::show;
+
+/// One operation of a computation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Step {
+    /// What its result is called: a name of the table, `#1` and so on, or `value` at the end.
+    pub name: String,
+    /// The operation on names, such as `1 + px`.
+    pub formula: String,
+    /// The operation on numbers, such as `1 + 0.25`; absent where it says no more than the formula.
+    pub numbers: Option<String>,
+    /// Why this side of a choice is taken.
+    pub because: Option<String>,
+    /// The result.
+    pub value: String,
+}
+
+/// The steps that compute the components of a result.
+pub(super) fn of<T: Real>(witness: &mut Witness<'_, T>, values: &[ExprId]) -> Result<Vec<Step>, NeedsFetch> {
+    let output = &witness.program.output;
+    let components = show::component_names(output);
+    // Levels are numbered inside; only the numbers themselves are worth deriving.
+    let roots = if output.is_integer() { &values[..0] } else { values };
+    let taken = witness.program.inputs.iter().map(|i| i.name.clone()).chain(components.iter().map(|n| (*n).to_owned()));
+    let mut steps = Steps { taken: taken.collect(), witness, done: HashMap::new(), list: Vec::new(), anonymous: 0 };
+    for (root, name) in roots.iter().zip(components) {
+        steps.root(*root, name)?;
+    }
+    Ok(steps.list)
+}
+
+struct Steps<'w, 'p, T> {
+    witness: &'w mut Witness<'p, T>,
+    /// Names that mean something already.
+    taken: HashSet<String>,
+    /// What the results of earlier steps are called.
+    done: HashMap<ExprId, String>,
+    list: Vec<Step>,
+    anonymous: usize,
+}
+
+impl<T: Real> Steps<'_, '_, T> {
+    fn root(&mut self, expr: ExprId, name: &str) -> Result<(), NeedsFetch> {
+        let before = self.list.len();
+        let operand = self.operand(expr)?;
+        match self.list[before..].last_mut() {
+            // The last step is the result, so it needs no number of its own.
+            Some(last) if operand.starts_with('#') => {
+                name.clone_into(&mut last.name);
+                self.anonymous -= 1;
+                self.done.insert(expr, name.to_owned());
+            }
+            _ => {
+                let value = self.witness.value(expr)?;
+                self.list.push(Step { name: name.to_owned(), formula: operand, numbers: None, because: None, value });
+            }
+        }
+        Ok(())
+    }
+
+    /// What an expression is called, after the steps that compute it.
+    fn operand(&mut self, expr: ExprId) -> Result<String, NeedsFetch> {
+        if let Some(name) = self.done.get(&expr) {
+            return Ok(name.clone());
+        }
+        let node = self.witness.node(expr);
+        let operands: Vec<ExprId> = match node {
+            Node::Const(number) => return Ok(number.get().to_string()),
+            Node::Input(input) => return Ok(self.witness.program.inputs[input.index()].name.clone()),
+            Node::Result => return Ok("value".to_owned()),
+            Node::Unary(_, a) => vec![a],
+            Node::Binary(_, a, b) => vec![a, b],
+            Node::Ternary(_, a, b, c) => vec![a, b, c],
+            Node::Select(condition, then, other) => {
+                let holds = self.witness.interpreter.holds(condition)?;
+                let chosen = if holds { then } else { other };
+                let before = self.list.len();
+                let formula = self.operand(chosen)?;
+                let tested = self.witness.tested(condition)?;
+                let because = match holds {
+                    true => format!("as {}", tested.condition),
+                    false => format!("as {} fails ({})", tested.condition, tested.facts.join(", ")),
+                };
+                // A side that was computed just for this choice is the choice's own step.
+                if self.list.len() > before
+                    && formula.starts_with('#')
+                    && let Some(last) = self.list.pop()
+                {
+                    self.anonymous -= 1;
+                    let because = last.because.map_or(because.clone(), |inner| format!("{because}, {inner}"));
+                    let name = self.push(expr, last.formula, last.numbers, Some(because))?;
+                    self.done.insert(chosen, name.clone());
+                    return Ok(name);
+                }
+                return self.push(expr, formula, None, Some(because));
+            }
+        };
+        let mut names = Vec::new();
+        let mut numbers = Vec::new();
+        for operand in operands {
+            names.push(self.operand(operand)?);
+            numbers.push(self.witness.value(operand)?);
+        }
+        self.push(expr, written(node, &names), Some(written(node, &numbers)), None)
+    }
+
+    fn push(
+        &mut self,
+        expr: ExprId,
+        formula: String,
+        numbers: Option<String>,
+        because: Option<String>,
+    ) -> Result<String, NeedsFetch> {
+        let label = self.witness.program.pool.label(expr).filter(|label| !self.taken.contains(*label));
+        let name = match label {
+            Some(label) => label.to_owned(),
+            None => {
+                self.anonymous += 1;
+                format!("#{}", self.anonymous)
+            }
+        };
+        self.taken.insert(name.clone());
+        self.done.insert(expr, name.clone());
+        let numbers = numbers.filter(|numbers| *numbers != formula);
+        let value = self.witness.value(expr)?;
+        self.list.push(Step { name: name.clone(), formula, numbers, because, value });
+        Ok(name)
+    }
+}
+
+/// An operation on operands that are single words.
+fn written(node: Node, operands: &[String]) -> String {
+    fn name<O: PartialEq>(names: &'static [(&'static str, O)], op: &O) -> &'static str {
+        names.iter().find(|(_, o)| o == op).map_or("?", |(name, _)| name)
+    }
+    let infix = |symbol: &str| operands.join(&format!(" {symbol} "));
+    let call = |name: &str| format!("{name}({})", operands.join(", "));
+    match node {
+        Node::Unary(UnaryOp::Negate, _) => format!("-({})", operands.join(", ")),
+        Node::Unary(op, _) => call(name(&UNARY_FUNCTIONS, &op)),
+        Node::Binary(BinaryOp::Add, ..) => infix("+"),
+        Node::Binary(BinaryOp::Subtract, ..) => infix("-"),
+        Node::Binary(BinaryOp::Multiply, ..) => infix("*"),
+        Node::Binary(BinaryOp::Divide, ..) => infix("/"),
+        Node::Binary(BinaryOp::Remainder, ..) => infix("%"),
+        Node::Binary(op, ..) => call(name(&BINARY_FUNCTIONS, &op)),
+        Node::Ternary(op, ..) => call(name(&TERNARY_FUNCTIONS, &op)),
+        Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => infix(","),
+    }
+}
