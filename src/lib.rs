@@ -1,20 +1,41 @@
 //! Umbrage compiles case tables into shaders that are proved equal to the table.
+//!
+//! ```text
+//! RON text ──table──▶ Table ──program──▶ Program ──plan──▶ Plan ──prove──▶ Proved ──emit──▶ source
+//!                                          │ eval                                     │ gpu
+//!                                          ▼                                          ▼
+//!                                        values ◀────────────── diff ──────────────▶ values
+//! ```
+//!
+//! Data flows one way. Nothing past [`program`] looks at RON, nothing before
+//! [`emit`] knows a shading language, and interpreters and emitters share
+//! nothing but the [`program::Program`], so that no bug can hide in both.
+//!
+//! ```
+//! use umbrage::eval::Interpreter;
+//! use umbrage::plan::{Plan, Shape};
+//! use umbrage::program::Program;
+//!
+//! let program = Program::read("tables/smsr.ron")?;
+//! let proved = Plan::proved(&program, Shape::Ladder)?;
+//! let wgsl = umbrage::emit::wgsl(&proved);
+//! assert!(wgsl.contains("fn smsr_key("));
+//! # Ok::<(), umbrage::diag::Failure>(())
+//! ```
 
-<<<<<<< HEAD
-pub mod build;
-=======
 pub mod analyse;
+pub mod build;
 #[cfg(feature = "cli")]
 pub mod cli;
->>>>>>> helper-a
 pub mod diag;
+#[cfg(feature = "gpu")]
+pub mod diff;
 pub mod emit;
 pub mod eval;
-<<<<<<< HEAD
-pub mod plan;
-=======
 pub mod explain;
->>>>>>> helper-a
+#[cfg(feature = "gpu")]
+pub mod gpu;
+pub mod plan;
 pub mod program;
 pub mod show;
 pub mod table;

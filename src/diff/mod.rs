@@ -1,0 +1,233 @@
+//! The differential test: every plan × entry point × language on a device,
+//! against the interpreter.
+//!
+//! A result that equals the `f32` interpreter's in case and every bit is right.
+//! One that does not may still be legal: WGSL fixes no rounding mode, so near
+//! the line where a comparison switches, and in the last bits, more than one
+//! answer is admissible. Then the interval interpreter judges, which knows
+//! WGSL's accuracy rules: inside what it admits is legal, outside is a bug.
+//! Fetches have no such leeway: one that the interpreter did not make, or made
+//! twice, is a bug, unless another case was legally taken.
+
+mod points;
+
+use std::fmt::Write as _;
+
+use crate::diag::Failure;
+use crate::emit::harness::Entry;
+use crate::eval::{Batch, Columns, IntervalInterpreter, Results};
+use crate::gpu::{Gpu, Kernel, Language, Outputs};
+use crate::plan::{Plan, Proved, Shape};
+use crate::program::Program;
+use crate::show::{Precision, sentence};
+
+pub use points::{Effort, Point, Points};
+
+/// Points that are evaluated together.
+const BATCH: usize = 100_000;
+/// Offenders that are kept for the report.
+const KEPT: usize = 5;
+
+/// What to compare.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// The plans; those that do not suit a table are left out.
+    pub shapes: Vec<Shape>,
+    /// How many points.
+    pub effort: Effort,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { shapes: Shape::ALL.to_vec(), effort: Effort::default() }
+    }
+}
+
+/// The comparison of one table.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// Name of the table.
+    pub table: String,
+    /// Discrete states gone through: all of them.
+    pub states: usize,
+    /// Points compared, per run.
+    pub points: usize,
+    /// One per plan, entry point and language.
+    pub runs: Vec<Run>,
+}
+
+/// One executor against the interpreter.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// The plan.
+    pub shape: Shape,
+    /// The entry point.
+    pub entry: Entry,
+    /// The language.
+    pub language: Language,
+    /// Points with the same case and the same bits.
+    pub bit_equal: usize,
+    /// Points that differ, but as WGSL admits.
+    pub admissible: usize,
+    /// Points that differ otherwise.
+    pub offending: usize,
+    /// Largest difference of a value where the same case was taken.
+    pub worst: f64,
+    /// The first offenders.
+    pub offenders: Vec<Offender>,
+}
+
+/// A point at which an executor is wrong.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Offender {
+    /// The inputs, as `umbrage explain --at` takes them.
+    pub inputs: String,
+    /// What was expected and what came.
+    pub reason: String,
+}
+
+impl Report {
+    /// Points that differ without excuse, over all runs.
+    pub fn offending(&self) -> usize {
+        self.runs.iter().map(|run| run.offending).sum()
+    }
+}
+
+/// Compares every plan of a program on a device with the interpreter.
+/// `progress` is told how many states are done.
+///
+/// # Errors
+/// When a plan cannot be proved, or the device fails.
+pub fn table(
+    program: &Program,
+    gpu: &Gpu,
+    options: &Options,
+    mut progress: impl FnMut(usize),
+) -> Result<Report, Failure> {
+    let mut proved: Vec<Proved<'_>> = Vec::new();
+    for shape in &options.shapes {
+        if let Ok(plan) = Plan::new(program, *shape) {
+            proved.push(plan.prove()?);
+        }
+    }
+    let mut kernels = Vec::new();
+    let mut runs = Vec::new();
+    for proved in &proved {
+        for entry in Entry::ALL {
+            for language in Language::ALL {
+                kernels.push(Kernel::new(gpu, proved, entry, language)?);
+                runs.push(Run {
+                    shape: proved.plan().shape,
+                    entry,
+                    language,
+                    bit_equal: 0,
+                    admissible: 0,
+                    offending: 0,
+                    worst: 0.0,
+                    offenders: Vec::new(),
+                });
+            }
+        }
+    }
+    let mut points = Points::new(program, options.effort);
+    let mut interpreter = Batch::<f32>::new(program);
+    let mut judge = Judge { program, intervals: IntervalInterpreter::new(program) };
+    let mut report = Report { table: program.name.clone(), states: program.states.count(), points: 0, runs };
+    let mut state = 0;
+    while state < report.states {
+        let mut columns = Columns::<f32>::new(program);
+        while state < report.states && columns.len() < BATCH {
+            for point in points.of_state(state) {
+                columns.push(&point).map_err(|error| internal(program, &error.to_string()))?;
+            }
+            state += 1;
+        }
+        let expected = interpreter.evaluate(&columns).map_err(|missing| {
+            internal(program, &format!("`{}` is missing", program.inputs[missing.input.index()].name))
+        })?;
+        report.points += columns.len();
+        for (kernel, run) in kernels.iter().zip(&mut report.runs) {
+            let outputs = kernel.run(&columns)?;
+            for point in 0..columns.len() {
+                judge.compare(&columns, point, &expected, &outputs, run);
+            }
+        }
+        progress(state);
+    }
+    Ok(report)
+}
+
+fn internal(program: &Program, message: &str) -> Failure {
+    use crate::diag::{Diagnostic, codes};
+    let error = Diagnostic::error(codes::BAD_VALUE, format!("the points of `{}` do not fit it: {message}", program.name));
+    Failure::new(program.source.clone(), error.help("please report this: points are made from the table itself"))
+}
+
+struct Judge<'p> {
+    program: &'p Program,
+    intervals: IntervalInterpreter<'p>,
+}
+
+impl Judge<'_> {
+    fn compare(
+        &mut self,
+        columns: &Columns<f32>,
+        point: usize,
+        expected: &Results<f32>,
+        outputs: &Outputs,
+        run: &mut Run,
+    ) {
+        let want = expected.path(point);
+        let got_row = outputs.rows[point];
+        let same_case = want.row == got_row;
+        let mut same_bits = same_case;
+        for (component, values) in outputs.values.iter().enumerate() {
+            let (a, b) = (expected.values(component)[point], values[point]);
+            same_bits &= a.to_bits() == b.to_bits();
+            if same_case && a.to_bits() != b.to_bits() {
+                let difference = (f64::from(a) - f64::from(b)).abs();
+                // A NaN on one side only is as far off as can be.
+                run.worst = run.worst.max(if difference.is_nan() { f64::INFINITY } else { difference });
+            }
+        }
+        let again = outputs.repeated[point].iter().next();
+        let needless = outputs.fetched[point].minus(want.fetched).iter().next();
+        let mut reason = String::new();
+        if let Some(input) = again {
+            let _ = write!(reason, "`{}` is fetched more than once", self.program.inputs[input.index()].name);
+        } else if let (Some(input), true) = (needless, same_case) {
+            let _ = write!(reason, "`{}` is fetched without need", self.program.inputs[input.index()].name);
+        } else if same_bits {
+            run.bit_equal += 1;
+            return;
+        } else {
+            let values: Vec<f32> = outputs.values.iter().map(|component| component[point]).collect();
+            if self.intervals.admissible(&columns.point(point)).is_ok_and(|a| a.contains(got_row, &values)) {
+                run.admissible += 1;
+                return;
+            }
+            let _ = write!(
+                reason,
+                "expected {}, got {}",
+                self.describe(want.row, &expected.outcome(point).values),
+                self.describe(got_row, &values)
+            );
+        }
+        run.offending += 1;
+        if run.offenders.len() < KEPT {
+            run.offenders.push(Offender { inputs: self.inputs(columns, point), reason });
+        }
+    }
+
+    fn describe(&self, row: Option<usize>, values: &[f32]) -> String {
+        let values: Vec<f64> = values.iter().map(|value| f64::from(*value)).collect();
+        let case = row.map_or_else(|| "the default".to_owned(), |row| format!("case {}", self.program.rows[row].id));
+        format!("{case} with {}", sentence(&self.program.output, &values, Precision::F32))
+    }
+
+    fn inputs(&self, columns: &Columns<f32>, point: usize) -> String {
+        let values = self.program.inputs.iter().zip(columns.point(point));
+        let shown = values.filter_map(|(input, value)| Some(format!("{}={}", input.name, input.show(value?))));
+        shown.collect::<Vec<_>>().join(",")
+    }
+}
