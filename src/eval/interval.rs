@@ -297,8 +297,6 @@ impl Interval {
         if self.is_any() || self.lo <= 0.0 {
             return Self::ANY;
         }
-        let near = (0.5, 2.0);
-        let outside = |x: f64| !(near.0..=near.1).contains(&x);
         let relative = self.grows(f, Error::Ulp(3.0));
         let absolute = self.grows(f, Error::Absolute(2_f64.powi(-21)));
         if self.within(0.5, 2.0) {
