@@ -97,7 +97,7 @@ impl<'p, T: Real> Batch<'p, T> {
         for start in (0..columns.len()).step_by(CHUNK) {
             self.chunk(columns, start, CHUNK.min(columns.len() - start), results)?;
         }
-        results.paths.clone_from(&self.residual.paths());
+        results.paths.clone_from(self.residual.paths());
         Ok(())
     }
 
@@ -477,5 +477,27 @@ mod tests {
         let columns = Columns::<f64>::from_rows(&program, [ok, ok, no_g, ok, no_f]).expect("fits");
         let missing = Batch::new(&program).evaluate(&columns).map(|_| ());
         assert_eq!(missing, Err(Missing { row: 2, input: InputId::new(2) }));
+    }
+
+    #[test]
+    fn trees_that_grow_too_large_are_left_to_the_reference() {
+        let inputs: String = (0..13).map(|k| format!("\"x{k}\": Range(from: 0, to: 1), ")).collect();
+        let terms: Vec<String> =
+            (0..13).map(|k| format!("(if x{k} < 0.5 {{ {}.1 }} else {{ x{k} }})", 1 << k)).collect();
+        let program = program(&format!(
+            r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{ {inputs} }}, output: Number(),
+                cases: [Case(id: 1, when: "x0 > 0.1", value: "{}")], default: 0)"#,
+            terms.join(" + ")
+        ));
+        let point = |bits: u32| (0..13).map(move |k| Some(Value::Number(f64::from(bits >> k & 1) * 0.6 + 0.2)));
+        let points: Vec<Vec<_>> = (0..64).map(|k| point(k * 127).collect()).collect();
+        let columns = Columns::from_rows(&program, &points).expect("fits");
+        let mut batch = Batch::<f32>::new(&program);
+        let results = batch.evaluate(&columns).expect("nothing is fetched");
+        assert!(matches!(batch.residual.trees()[batch.roots[0].index()], Tree::Scalar));
+        let mut scalar = Interpreter::<f32>::new(&program);
+        for (row, point) in points.iter().enumerate() {
+            assert_eq!(scalar.evaluate(point), Ok(results.outcome(row)));
+        }
     }
 }

@@ -5,6 +5,8 @@
 //! whole registers, so its dispatch is paid once per block and its loop
 //! vectorises. Every element goes through [`Real`], like in the reference.
 
+use std::collections::HashMap;
+
 use super::columns::{Column, Columns};
 use super::residual::{Term, TermId};
 use crate::program::{BinaryOp, InputId, Real, TernaryOp, UnaryOp};
@@ -40,7 +42,7 @@ pub(super) struct Code<T> {
 impl<T: Real> Code<T> {
     /// Compiles `roots`.
     pub(super) fn new(terms: &[Term], roots: &[TermId]) -> Self {
-        let mut compiler = Compiler { terms, code: Vec::new(), places: std::collections::HashMap::new(), registers: 0 };
+        let mut compiler = Compiler { terms, code: Vec::new(), places: HashMap::new(), registers: 0 };
         let outputs = roots.iter().map(|root| compiler.place(*root)).collect();
         let (instructions, registers) = (compiler.code, compiler.registers);
         Self { instructions, outputs, registers }.with_registers_reused()
@@ -135,7 +137,7 @@ impl<T> Instruction<T> {
 struct Compiler<'a, T> {
     terms: &'a [Term],
     code: Vec<(usize, Instruction<T>)>,
-    places: std::collections::HashMap<TermId, usize>,
+    places: HashMap<TermId, usize>,
     registers: usize,
 }
 

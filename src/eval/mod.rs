@@ -3,14 +3,19 @@
 //! [`Interpreter`] is the reference. It walks the program exactly as the
 //! program's documentation reads, one input at a time, in `f32` or `f64`, and
 //! counts what it fetches. [`Batch`] gives the same results, bit for bit, for
-//! columns of inputs at once. Nothing here knows plans or shading languages.
+//! columns of inputs at once. [`IntervalInterpreter`] gives all results that WGSL's
+//! accuracy rules admit, to judge implementations by. Nothing here knows plans or shading languages.
 
+mod admissible;
 mod batch;
 mod code;
 mod columns;
+mod interval;
 mod residual;
 mod scalar;
 
+pub use admissible::{Admissible, IntervalInterpreter, Possible};
 pub use batch::{Batch, Missing};
 pub use columns::{ABSENT, Column, ColumnError, Columns, Path, Results};
+pub use interval::Interval;
 pub use scalar::{Interpreter, NeedsFetch, Outcome};

@@ -1,0 +1,246 @@
+//! Which results a WGSL implementation may give at a point.
+//!
+//! [`IntervalInterpreter`] evaluates a program in [`Interval`]s. Where a
+//! comparison can go either way it follows both, and the union of the outcomes
+//! is admissible: near the boundary of a guard that means several cases.
+//!
+//! How neighbours of a boundary are judged: WGSL fixes no rounding mode, so an
+//! operand whose exact value lies between two `f32` may be either; one whose
+//! exact value is an `f32` is that value. With `py = 0.25` the guard
+//! `1 - py < dH` is therefore decided for every `dH`, with `py = 0.1` it is
+//! open for the two `f32` around `0.9`.
+//!
+//! Choices, and what is not covered:
+//! - A comparison that occurs several times has one outcome within an
+//!   evaluation, as if its operands had been computed once. The same holds
+//!   for a jump (`step`, `floor`, …) between two values, which is followed
+//!   like a comparison, so that no value between them is admitted.
+//! - Fusing and anything else that merely leaves out a rounding is covered, as
+//!   the intervals contain the exact result. WGSL also lets an implementation
+//!   *reassociate* whole expressions, `(a + b) - a` for one; results that only
+//!   come about that way are **not** covered and are reported as inadmissible.
+//! - A fetched input may be absent. If the exact evaluation needs it, that is
+//!   an error. If only other evaluations near a boundary would have needed it,
+//!   they are left out: the host has followed the exact one and cannot supply
+//!   what it never produced.
+
+use super::interval::Interval;
+use super::{Interpreter, NeedsFetch};
+use crate::program::{BinaryOp, Cond, CondId, ExprId, Node, Program, UnaryOp, Value};
+
+/// Most evaluations that are followed at one point.
+const MAX_FORKS: usize = 512;
+
+/// A result that is admissible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Possible {
+    /// The row taken, as an index into [`Program::rows`]; `None` for the default.
+    pub row: Option<usize>,
+    /// The values that each component may have.
+    pub values: Vec<Interval>,
+}
+
+/// All results that are admissible at a point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Admissible {
+    /// The results; each differs from the others in its row, or in values that they do not cover.
+    pub outcomes: Vec<Possible>,
+    /// There were too many evaluations to follow, and everything is admitted.
+    pub everything: bool,
+}
+
+impl Admissible {
+    /// Whether a result is admissible.
+    pub fn contains(&self, row: Option<usize>, values: &[f32]) -> bool {
+        let fits = |possible: &Possible| {
+            possible.values.len() == values.len() && possible.values.iter().zip(values).all(|(i, v)| i.contains(*v))
+        };
+        self.everything || self.outcomes.iter().any(|possible| possible.row == row && fits(possible))
+    }
+
+    /// Whether values are admissible with whichever row.
+    pub fn contains_values(&self, values: &[f32]) -> bool {
+        self.everything || self.outcomes.iter().any(|possible| self.contains(possible.row, values))
+    }
+
+    fn add(&mut self, new: Possible) {
+        let covers =
+            |a: &Possible, b: &Possible| a.row == b.row && a.values.iter().zip(&b.values).all(|(a, b)| a.covers(*b));
+        if self.outcomes.iter().any(|old| covers(old, &new)) {
+            return;
+        }
+        self.outcomes.retain(|old| !covers(&new, old));
+        self.outcomes.push(new);
+    }
+}
+
+/// What an evaluation decided where it could go either way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Choice {
+    Comparison(CondId),
+    Jump(ExprId),
+}
+
+/// Why an evaluation could not go on.
+enum Stop {
+    Open(Choice),
+    Missing,
+}
+
+/// Evaluates a program in intervals, at single points.
+#[derive(Debug)]
+pub struct IntervalInterpreter<'p> {
+    program: &'p Program,
+    exact: Interpreter<'p, f32>,
+    point: Vec<Option<Value>>,
+    choices: Vec<(Choice, bool)>,
+}
+
+impl<'p> IntervalInterpreter<'p> {
+    /// An interpreter of `program`.
+    pub fn new(program: &'p Program) -> Self {
+        Self { program, exact: Interpreter::new(program), point: Vec::new(), choices: Vec::new() }
+    }
+
+    /// All results admissible at a point. Numbers are rounded to `f32` first.
+    ///
+    /// # Errors
+    /// With the first input that the exact evaluation needs but that is absent.
+    pub fn admissible(&mut self, point: &[Option<Value>]) -> Result<Admissible, NeedsFetch> {
+        self.exact.place(point)?;
+        self.point.clear();
+        self.point.extend_from_slice(point);
+        self.point.resize(self.program.inputs.len(), None);
+        self.choices.clear();
+        let mut all = Admissible { outcomes: Vec::new(), everything: false };
+        let (mut forks, mut checked) = (0, false);
+        loop {
+            match self.evaluate() {
+                Ok(possible) => all.add(possible),
+                Err(Stop::Open(choice)) => {
+                    self.choices.push((choice, true));
+                    continue;
+                }
+                Err(Stop::Missing) if checked => {}
+                Err(Stop::Missing) => {
+                    self.exact.evaluate(point)?;
+                    checked = true;
+                }
+            }
+            forks += 1;
+            // On to the next evaluation: the last choice that was taken one way is taken the other way.
+            while self.choices.pop_if(|(_, taken)| !*taken).is_some() {}
+            match self.choices.last_mut() {
+                None => return Ok(all),
+                Some(_) if forks >= MAX_FORKS => {
+                    // Give the exact evaluation a chance to fail before everything is admitted.
+                    self.exact.evaluate(point)?;
+                    all.everything = true;
+                    return Ok(all);
+                }
+                Some((_, taken)) => *taken = false,
+            }
+        }
+    }
+
+    /// Follows [`Interpreter::evaluate`] under the choices made so far.
+    fn evaluate(&self) -> Result<Possible, Stop> {
+        for (index, row) in self.program.rows.iter().enumerate() {
+            if !self.holds(row.guard)? {
+                continue;
+            }
+            for line in &row.lines {
+                if self.holds(line.condition)? {
+                    return self.possible(Some(index), &line.values);
+                }
+            }
+            return self.possible(Some(index), &self.program.default);
+        }
+        self.possible(None, &self.program.default)
+    }
+
+    fn possible(&self, row: Option<usize>, values: &[ExprId]) -> Result<Possible, Stop> {
+        let values = values.iter().map(|value| self.number(*value)).collect::<Result<_, _>>()?;
+        Ok(Possible { row, values })
+    }
+
+    fn choice(&self, choice: Choice) -> Result<bool, Stop> {
+        let made = self.choices.iter().find(|(made, _)| *made == choice);
+        made.map(|(_, taken)| *taken).ok_or(Stop::Open(choice))
+    }
+
+    fn holds(&self, condition: CondId) -> Result<bool, Stop> {
+        match self.program.pool.cond(condition) {
+            Cond::Const(value) => Ok(*value),
+            Cond::Level(input, levels) => match self.point[input.index()] {
+                Some(Value::Level(level)) => Ok(levels.contains(level)),
+                _ => Err(Stop::Missing),
+            },
+            Cond::Compare(op, a, b) => {
+                let (a, b) = (self.number(*a)?, self.number(*b)?);
+                a.compare(*op, b).map_or_else(|| self.choice(Choice::Comparison(condition)), Ok)
+            }
+            Cond::Not(a) => Ok(!self.holds(*a)?),
+            Cond::And(parts) => {
+                for part in parts {
+                    if !self.holds(*part)? {
+                        return Ok(false);
+                    }
+                }
+                Ok(true)
+            }
+            Cond::Or(parts) => {
+                for part in parts {
+                    if self.holds(*part)? {
+                        return Ok(true);
+                    }
+                }
+                Ok(false)
+            }
+            Cond::If(condition, then, other) => match self.holds(*condition)? {
+                true => self.holds(*then),
+                false => self.holds(*other),
+            },
+        }
+    }
+
+    fn number(&self, expr: ExprId) -> Result<Interval, Stop> {
+        match self.program.pool.node(expr) {
+            Node::Const(number) => Ok(Interval::constant(number.get())),
+            Node::Input(input) => match self.point[input.index()] {
+                Some(Value::Number(number)) => Ok(Interval::exactly(number as f32)),
+                _ => Err(Stop::Missing),
+            },
+            // Occurs in the result map of a symmetry only, which is never evaluated at a point.
+            Node::Result => Ok(Interval::ANY),
+            Node::Unary(op, a) => {
+                let a = self.number(a)?;
+                let image = Interval::unary(op, a);
+                match op {
+                    UnaryOp::Ceil | UnaryOp::Floor | UnaryOp::Round | UnaryOp::Sign | UnaryOp::Trunc => {
+                        self.jump(expr, image)
+                    }
+                    _ => Ok(image),
+                }
+            }
+            Node::Binary(op, a, b) => {
+                let image = Interval::binary(op, self.number(a)?, self.number(b)?);
+                if op == BinaryOp::Step { self.jump(expr, image) } else { Ok(image) }
+            }
+            Node::Ternary(op, a, b, c) => Ok(Interval::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?)),
+            Node::Select(condition, then, other) => match self.holds(condition)? {
+                true => self.number(then),
+                false => self.number(other),
+            },
+        }
+    }
+
+    /// The image under a function with whole results: of two that are neighbours, one or the other.
+    fn jump(&self, expr: ExprId, image: Interval) -> Result<Interval, Stop> {
+        if image.hi() - image.lo() != 1.0 {
+            return Ok(image);
+        }
+        let upper = self.choice(Choice::Jump(expr))?;
+        Ok(Interval::constant(if upper { image.hi() } else { image.lo() }))
+    }
+}
