@@ -5,9 +5,12 @@
 //! output, messages to standard error.
 
 mod answers;
+mod build;
 mod check;
 mod columns;
 mod csv_input;
+#[cfg(feature = "gpu")]
+mod diff;
 mod eval;
 mod explain;
 mod json_input;
@@ -20,6 +23,8 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::diag::{Diagnostic, Failure, codes};
+use crate::emit::Target;
+use crate::plan::Shape;
 use crate::show::Precision;
 use report::{Color, Format, Report};
 
@@ -41,6 +46,11 @@ struct Arguments {
 enum Command {
     /// Check tables and run their examples
     Check(check::Arguments),
+    /// Check, prove, emit and validate tables
+    Build(build::Arguments),
+    /// Compare every plan on a GPU with the interpreter
+    #[cfg(feature = "gpu")]
+    Diff(diff::Arguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about
@@ -111,6 +121,9 @@ pub fn main() -> ExitCode {
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
         Command::Check(arguments) => check::run(&arguments, &report),
+        Command::Build(arguments) => build::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
     };
@@ -130,4 +143,20 @@ pub fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Reads the name of a plan.
+fn parse_shape(name: &str) -> std::result::Result<Shape, String> {
+    Shape::from_name(name).ok_or_else(|| {
+        let known: Vec<&str> = Shape::ALL.iter().map(|shape| shape.name()).collect();
+        format!("there is no such plan; the plans are: {}", known.join(", "))
+    })
+}
+
+/// Reads the name of a target.
+fn parse_target(name: &str) -> std::result::Result<Target, String> {
+    Target::from_name(name).ok_or_else(|| {
+        let known: Vec<&str> = Target::ALL.iter().map(|target| target.name()).collect();
+        format!("there is no such target; the targets are: {}", known.join(", "))
+    })
 }

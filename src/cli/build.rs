@@ -1,0 +1,123 @@
+//! `umbrage build`: tables to generated files.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use super::report::{Format, Report};
+use super::{Outcome, Result, parse_shape, parse_target};
+use crate::build::{self, Built, Options};
+use crate::diag::{Diagnostic, Failure, Severity, codes};
+use crate::emit::Target;
+use crate::plan::Shape;
+use crate::program::Program;
+
+/// Arguments of `umbrage build`.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Tables, or directories that contain tables (files named *.ron, at any depth)
+    #[arg(value_name = "PATH", default_value = "tables")]
+    paths: Vec<PathBuf>,
+    /// Directory for the generated files, one folder per table
+    #[arg(long, short, value_name = "DIR", default_value = "generated")]
+    output: PathBuf,
+    /// Code shapes: ladder, switch, switch_buffer [default: ladder,switch]
+    #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
+    plan: Vec<Shape>,
+    /// Languages: wgsl, glsl450, glsl330, glsl_es300, rust, spirv, hlsl, msl [default: all]
+    #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
+    target: Vec<Target>,
+}
+
+/// Builds every table. Nothing is written unless all of them are right.
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    let mut options = Options::default();
+    if !arguments.plan.is_empty() {
+        options.shapes.clone_from(&arguments.plan);
+    }
+    if !arguments.target.is_empty() {
+        options.targets.clone_from(&arguments.target);
+    }
+    let mut done: Vec<(Program, Built)> = Vec::new();
+    let mut outcome = Outcome::Clean;
+    for path in &arguments.paths {
+        for file in build::find_tables(path)? {
+            match one(&file, &options, report, &done) {
+                Ok((built, found)) => {
+                    outcome = outcome.max(found);
+                    done.push(built);
+                }
+                Err(failure) => {
+                    report.failure(&failure);
+                    outcome = Outcome::Failed;
+                }
+            }
+        }
+    }
+    if outcome == Outcome::Failed {
+        return Ok(outcome);
+    }
+    let files: Vec<_> = done.iter().flat_map(|(_, built)| built.files.iter().cloned()).collect();
+    let written = build::write(&arguments.output, &files)?;
+    if report.format == Format::Human {
+        summary(&done, &options, files.len(), written, arguments)?;
+    }
+    Ok(outcome)
+}
+
+fn one(
+    file: &std::path::Path,
+    options: &Options,
+    report: &Report,
+    done: &[(Program, Built)],
+) -> std::result::Result<((Program, Built), Outcome), Failure> {
+    let program = Program::read(file)?;
+    if let Some((other, _)) = done.iter().find(|(other, _)| other.name == program.name) {
+        let message = format!("`{}` and this file both define the table `{}`", other.source.name, program.name);
+        let error = Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
+        return Err(Failure::new(program.source.clone(), error));
+    }
+    let findings = crate::analyse::findings(&program);
+    if findings.iter().any(|finding| finding.severity == Severity::Error) {
+        return Err(Failure { source: program.source.clone(), diagnostics: findings });
+    }
+    let found = match findings.iter().any(|finding| finding.severity == Severity::Warning) {
+        true => Outcome::Findings,
+        false => Outcome::Clean,
+    };
+    report.show(&program.source, &findings);
+    let built = build::table(&program, options)?;
+    Ok(((program, built), found))
+}
+
+fn summary(
+    done: &[(Program, Built)],
+    options: &Options,
+    count: usize,
+    written: usize,
+    arguments: &Arguments,
+) -> Result<()> {
+    let mut out = io::stdout().lock();
+    for (program, built) in done {
+        let (cases, states) = (program.rows.len(), program.states.count());
+        writeln!(
+            out,
+            "{}: {cases} cases, {} inputs, {states} states, {} examples hold",
+            program.source.name,
+            program.inputs.len(),
+            program.examples.len()
+        )?;
+        for (shape, proof) in &built.plans {
+            writeln!(out, "  {:<14} proved {proof}", shape.name())?;
+        }
+        for (shape, reason) in &built.skipped {
+            let why = reason.diagnostics.iter().flat_map(|d| &d.notes).next().map_or("", String::as_str);
+            writeln!(out, "  {:<14} left out: {why}", shape.name())?;
+        }
+    }
+    let targets: Vec<&str> = options.targets.iter().map(|target| target.name()).collect();
+    writeln!(out, "targets: {}; validated by naga where it reads or writes the language", targets.join(", "))?;
+    let place = arguments.output.display();
+    writeln!(out, "{place}: {count} files, {written} written, {} unchanged", count - written)?;
+    out.flush()?;
+    Ok(())
+}

@@ -1,0 +1,129 @@
+//! `umbrage diff`: every plan on a GPU against the interpreter.
+
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::json;
+
+use super::report::{Format, Report};
+use super::{Outcome, Result, parse_shape};
+use crate::build;
+use crate::diff::{self, Options};
+use crate::gpu::{AdapterChoice, Gpu};
+use crate::plan::Shape;
+use crate::program::Program;
+
+/// Arguments of `umbrage diff`.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Tables, or directories that contain tables (files named *.ron, at any depth)
+    #[arg(value_name = "PATH", default_value = "tables")]
+    paths: Vec<PathBuf>,
+    /// The adapter: any, software, hardware, or a part of its name
+    #[arg(long, value_name = "WHICH", default_value = "any")]
+    adapter: AdapterChoice,
+    /// Code shapes: ladder, switch, switch_buffer [default: all]
+    #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
+    plan: Vec<Shape>,
+    /// Most points of the grid on the continuous inputs, per discrete state
+    #[arg(long, value_name = "COUNT", default_value_t = diff::Effort::default().grid)]
+    grid: usize,
+    /// Random points per discrete state
+    #[arg(long, value_name = "COUNT", default_value_t = diff::Effort::default().random)]
+    random: usize,
+}
+
+/// Compares every table.
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    let mut options = Options::default();
+    options.effort.grid = arguments.grid;
+    options.effort.random = arguments.random;
+    if !arguments.plan.is_empty() {
+        options.shapes.clone_from(&arguments.plan);
+    }
+    let mut programs = Vec::new();
+    for path in &arguments.paths {
+        for file in build::find_tables(path)? {
+            programs.push(Program::read(&file)?);
+        }
+    }
+    let gpu = Gpu::open(&arguments.adapter)?;
+    let mut out = io::stdout().lock();
+    if report.format == Format::Human {
+        writeln!(out, "adapter: {}", gpu.describe())?;
+    }
+    let mut outcome = Outcome::Clean;
+    for program in &programs {
+        let bar = progress(program);
+        let result = diff::table(program, &gpu, &options, |state| bar.set_position(state as u64));
+        bar.finish_and_clear();
+        let result = result?;
+        if result.offending() > 0 {
+            outcome = Outcome::Findings;
+        }
+        match report.format {
+            Format::Human => human(&mut out, program, &result)?,
+            Format::Json => writeln!(out, "{}", json(&gpu, &result))?,
+        }
+    }
+    out.flush()?;
+    Ok(outcome)
+}
+
+fn progress(program: &Program) -> ProgressBar {
+    let bar = ProgressBar::new(program.states.count() as u64);
+    if !io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    if let Ok(style) = ProgressStyle::with_template("{prefix:10} {wide_bar} {pos}/{len} states, {eta} left") {
+        bar.set_style(style);
+    }
+    bar.set_prefix(program.name.clone());
+    bar
+}
+
+fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Result<()> {
+    writeln!(out, "{}: {} states, {} points", program.source.name, report.states, report.points)?;
+    writeln!(out, "  plan           entry   source   bit-equal  admissible   offending   worst difference")?;
+    for run in &report.runs {
+        writeln!(
+            out,
+            "  {:<14} {:<7} {:<6} {:>11} {:>11} {:>11}   {:e}",
+            run.shape.name(),
+            run.entry.name(),
+            run.language.name(),
+            run.bit_equal,
+            run.admissible,
+            run.offending,
+            run.worst
+        )?;
+        for offender in &run.offenders {
+            writeln!(out, "    {}", offender.reason)?;
+            writeln!(out, "    to see what should happen: umbrage explain {} --at {}", program.source.name, offender.inputs)?;
+        }
+    }
+    Ok(())
+}
+
+fn json(gpu: &Gpu, report: &diff::Report) -> serde_json::Value {
+    let runs = report.runs.iter().map(|run| {
+        json!({
+            "plan": run.shape.name(),
+            "entry": run.entry.name(),
+            "language": run.language.name(),
+            "bit_equal": run.bit_equal,
+            "admissible": run.admissible,
+            "offending": run.offending,
+            "worst": run.worst,
+            "offenders": run.offenders.iter().map(|o| json!({"inputs": o.inputs, "reason": o.reason})).collect::<Vec<_>>(),
+        })
+    });
+    json!({
+        "adapter": gpu.describe(),
+        "table": report.table,
+        "states": report.states,
+        "points": report.points,
+        "runs": runs.collect::<Vec<_>>(),
+    })
+}
