@@ -11,6 +11,10 @@ use crate::diag::{Code, Diagnostic, Failure, Span, Spanned, codes};
 use crate::table::expr::{Expr, ExprKind, UnaryOp};
 use crate::table::{self, Case, CaseBody, Image, Table, names};
 
+/// Expressions that may be lowered even if the table is short. The published
+/// techniques need some ten thousand.
+const MIN_BUDGET: usize = 1 << 20;
+
 /// Number of a level set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct SetId(pub(super) usize);
@@ -33,6 +37,8 @@ pub(super) struct Lowering<'t> {
     pub(super) resolving: Vec<usize>,
     /// How many expressions are being lowered inside each other.
     pub(super) nesting: u32,
+    /// How many more expressions may be lowered.
+    pub(super) budget: usize,
     input_index: HashMap<&'t str, InputId>,
     set_index: HashMap<&'t str, SetId>,
     case_index: HashMap<u32, usize>,
@@ -65,6 +71,7 @@ pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
         named_terms: vec![None; table.names.len()],
         resolving: Vec::new(),
         nesting: 0,
+        budget: MIN_BUDGET.max(table.source.text.len().saturating_mul(16)),
         input_index: HashMap::new(),
         set_index: HashMap::new(),
         case_index: HashMap::new(),
@@ -493,7 +500,8 @@ impl<'t> Lowering<'t> {
                 let CaseBody::Rows { when, lines } = &base_case.body else {
                     let message = format!("case {} is itself an image", base.value);
                     return Err(Diagnostic::error(codes::REFERENCE_DEPTH, message)
-                        .at(base.span, "an image is taken of a case that is written out"));
+                        .at(base.span, "an image is taken of a case that is written out")
+                        .help("name the case that has a guard and a value"));
                 };
                 let table = self.table;
                 let Some(symmetry) = table.symmetries.iter().find(|s| s.name.value == under.value) else {
@@ -692,6 +700,23 @@ mod tests {
     use crate::diag::Source;
     use crate::program::Program;
     use crate::table::Table;
+
+    #[test]
+    fn uses_that_multiply_are_refused_in_time() {
+        let names: String =
+            (0..60).map(|i| format!("\"n{}\": \"if true {{ n{i} }} else {{ n{i} }}\",", i + 1)).collect();
+        let text = format!(
+            r#"Table(language: 1, name: "t", hit_policy: First,
+                inputs: {{"s": Bool(), "x": Range(from: 0, to: 1)}},
+                names: {{"n0": "x", {names}}},
+                output: Number(),
+                cases: [Case(id: 1, when: "s", value: "n60"), Case(id: 2, when: "!s", value: "case(1, x = 0)")],
+                default: 0)"#
+        );
+        let program = Table::parse(Source::new("t", text)).and_then(|table| Program::check(&table));
+        let message = program.err().map(|e| e.diagnostics[0].message.clone());
+        assert_eq!(message.as_deref(), Some("names and references multiply beyond measure"));
+    }
 
     /// The deepest accepted nesting, and one beyond any bound, on a thread with little stack.
     #[test]

@@ -93,6 +93,12 @@ impl Lowering<'_> {
                 .at(expr.span, format!("level {MAX_NESTING} is reached here"))
                 .help("shorten the chain of names that use each other and lead here"));
         }
+        // Where a name or case is used under a replacement it is lowered anew, so uses can multiply.
+        self.budget = self.budget.checked_sub(1).ok_or_else(|| {
+            Diagnostic::error(codes::TOO_DEEP, "names and references multiply beyond measure")
+                .at(expr.span, "given up here")
+                .help("use fewer names that use other names twice, or none under `case(...)` and `is`")
+        })?;
         self.nesting += 1;
         let term = self.term_inner(expr, env, expected);
         self.nesting -= 1;
@@ -246,7 +252,8 @@ impl Lowering<'_> {
             let chain = self.resolving.iter().chain([&index]).map(|i| self.table.names[*i].name.value.as_str());
             let chain = chain.collect::<Vec<_>>().join(" -> ");
             return Err(Diagnostic::error(codes::CIRCULAR_NAME, format!("`{name}` is defined by itself"))
-                .at(entry.value.span, chain));
+                .at(entry.value.span, chain)
+                .help("a name stands for something else: write out one of the definitions"));
         }
         self.resolving.push(index);
         let inner = Env { locals: Vec::new(), ..env.clone() };
@@ -809,7 +816,8 @@ impl Lowering<'_> {
         if env.cases.contains(&id.value) {
             let chain = env.cases.iter().chain([&id.value]).map(u32::to_string).collect::<Vec<_>>().join(" -> ");
             return Err(Diagnostic::error(codes::CIRCULAR_CASE, format!("case {} refers to itself", id.value))
-                .at(id.span, format!("closes the circle {chain}")));
+                .at(id.span, format!("closes the circle {chain}"))
+                .help("write out the value of one of these cases"));
         }
         if env.referenced {
             let from = env.cases.last().copied().unwrap_or_default();
