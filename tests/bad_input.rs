@@ -232,7 +232,7 @@ fn deep_nesting() {
 
 #[test]
 fn sizes() {
-    let inputs: String = (0..40).map(|i| format!("\"i{i}\": Bool(),\n        ")).collect();
+    let inputs: String = (0..40).map(|i| format!("\"s{i}\": Bool(),\n        ")).collect();
     says!("states_trillion", refused("\"far\":", &format!("{inputs}\"far\":")));
     says!("states_levels", refused("Bool(),", "Int(from: 0, to: 1000000000000),"));
     let doubling: String = (1..40).map(|i| format!("\"d{i}\": \"d{0} + d{0}\",\n        ", i - 1)).collect();

@@ -9,7 +9,7 @@ use std::path::Path;
 use super::{csv_input, json_input};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::program::{Input, InputId, Program, Value};
-use crate::table::{nearest, read_text};
+use crate::table::{nearest, not_utf8, read_text};
 
 /// Rows that are read and evaluated together.
 pub(super) const CHUNK: usize = 1 << 16;
@@ -148,10 +148,7 @@ pub(super) fn read(path: &Path) -> Result<std::sync::Arc<Source>, Failure> {
     })?;
     match String::from_utf8(bytes) {
         Ok(text) => Ok(Source::new(STDIN, text)),
-        Err(error) => {
-            let at = error.utf8_error().valid_up_to();
-            Err(fail(format!("is not UTF-8 text (byte {at})"), "save it as UTF-8"))
-        }
+        Err(error) => Err(fail(not_utf8(&error), "save it as UTF-8")),
     }
 }
 
@@ -161,7 +158,7 @@ pub(super) fn column(program: &Program, name: &str, span: Span) -> Result<InputI
         return Ok(input);
     }
     let message = format!("`{}` is not an input of `{}`", shorten(name), program.name);
-    let error = Diagnostic::error(codes::BAD_COLUMN, message).at(span, "unknown column");
+    let error = Diagnostic::error(codes::BAD_COLUMN, message).at(span, "not an input");
     Err(match nearest(name, program.inputs.iter().map(|i| i.name.as_str())) {
         Some(close) => error.help(format!("did you mean `{close}`?")),
         None => error.help(describe_columns(program)),

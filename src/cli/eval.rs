@@ -9,9 +9,10 @@ use super::columns::{self, Columns, Points, Problems};
 use super::output::Sink;
 use super::report::Report;
 use super::{Outcome, PrecisionArgument, Result};
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::eval::{Interpreter, NeedsFetch};
-use crate::program::{Program, Real};
+use crate::explain::explain;
+use crate::program::{InputId, Program, Real, Value};
 use crate::show::Precision;
 
 /// Arguments of `umbrage eval`.
@@ -84,15 +85,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         // Rows that cannot be read have no answer; the others are judged nevertheless, to report all that is wrong.
         let answers = evaluate(&program, &points, &settings)?;
         for (index, input) in &answers.needed {
-            let input = &program.inputs[input.index()];
-            let place = points.place(*index);
-            problems.push(|| {
-                let message =
-                    format!("line {}: this row needs `{}`, which is absent", source.line(place.start), input.name);
-                Diagnostic::error(codes::NEEDS_FETCH, message)
-                    .at(columns::first_line(&source.text, place), "fetched here")
-                    .help(format!("give `{}` a value in this row: {}", input.name, input.doc))
-            });
+            problems.push(|| needs(&program, &source, points.point(*index), points.place(*index), *input));
         }
         if problems.is_empty() {
             writer.write(&answers)?;
@@ -103,6 +96,17 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     writer.end()?.finish()?;
     Ok(Outcome::Clean)
+}
+
+/// A row that leaves out what it needs.
+fn needs(program: &Program, source: &Source, point: &[Option<Value>], place: Span, input: InputId) -> Diagnostic {
+    let input = &program.inputs[input.index()];
+    let row = explain(program, point, Precision::F32).err().and_then(|needed| needed.row);
+    let who = row.map_or("this row".to_owned(), |row| format!("case {}", program.rows[row].id));
+    let message = format!("line {}: {who} needs `{}`, which is absent", source.line(place.start), input.name);
+    Diagnostic::error(codes::NEEDS_FETCH, message)
+        .at(columns::first_line(&source.text, place), format!("no value of `{}`", input.name))
+        .help(format!("give `{}` a value in this row: {}", input.name, input.doc))
 }
 
 /// Answers some points. This is the place where executors are plugged in.

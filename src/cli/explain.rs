@@ -86,6 +86,8 @@ fn point(program: &Program, source: &Arc<Source>) -> std::result::Result<(Vec<Op
             ),
         }
     }
+    // What was misspelt would be missing too.
+    let bad = !errors.is_empty();
     let mut assumed = Vec::new();
     for (id, input) in program.input_ids() {
         // A fetched input that is not given is absent; that is the point of it.
@@ -94,7 +96,7 @@ fn point(program: &Program, source: &Arc<Source>) -> std::result::Result<(Vec<Op
         }
         point[id.index()] = input.default;
         assumed.push(id);
-        if input.default.is_none() {
+        if input.default.is_none() && !bad {
             errors.push(
                 Diagnostic::error(codes::BAD_VALUE, format!("`{}` is not given and has no default", input.name))
                     .help(format!("give it a value, as in --at {}={}", input.name, sample(input))),

@@ -11,6 +11,10 @@ use crate::diag::{Code, Diagnostic, Failure, Span, Spanned, codes};
 use crate::table::expr::{Expr, ExprKind, UnaryOp};
 use crate::table::{self, Case, CaseBody, Image, Table, names};
 
+/// Expressions that may be lowered even if the table is short. The published
+/// techniques need some ten thousand.
+const MIN_BUDGET: usize = 1 << 20;
+
 /// Number of a level set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct SetId(pub(super) usize);
@@ -33,6 +37,8 @@ pub(super) struct Lowering<'t> {
     pub(super) resolving: Vec<usize>,
     /// How many expressions are being lowered inside each other.
     pub(super) nesting: u32,
+    /// How many more expressions may be lowered.
+    pub(super) budget: usize,
     input_index: HashMap<&'t str, InputId>,
     set_index: HashMap<&'t str, SetId>,
     case_index: HashMap<u32, usize>,
@@ -65,6 +71,7 @@ pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
         named_terms: vec![None; table.names.len()],
         resolving: Vec::new(),
         nesting: 0,
+        budget: MIN_BUDGET.max(table.source.text.len().saturating_mul(16)),
         input_index: HashMap::new(),
         set_index: HashMap::new(),
         case_index: HashMap::new(),
@@ -140,7 +147,7 @@ impl<'t> Lowering<'t> {
             errors.push(
                 Diagnostic::error(codes::EMPTY, "the table has no cases")
                     .at(table.name.span, "this table")
-                    .help("a table needs at least one `Case(…)` in `cases`"),
+                    .help("a table needs at least one `Case(...)` in `cases`"),
             );
         }
         if let Err(error) = self.declare_output() {
@@ -183,8 +190,8 @@ impl<'t> Lowering<'t> {
         let error =
             |code: Code, message: String, at: Span, label: &str| Err(Diagnostic::error(code, message).at(at, label));
         if !(2..=MAX_LEVELS).contains(&levels.len()) {
-            let message = format!("{} levels, a discrete input has 2 to {MAX_LEVELS}", levels.len());
-            return error(codes::DOMAIN, message, span, "here");
+            let message = format!("a discrete input has 2 to {MAX_LEVELS} levels, this one has {}", levels.len());
+            return error(codes::DOMAIN, message, span, "these levels");
         }
         let mut codes_seen = HashMap::new();
         let mut names_seen = HashSet::new();
@@ -294,10 +301,18 @@ impl<'t> Lowering<'t> {
             codes::TOO_MANY_STATES,
             format!("the discrete inputs have {} combined states", approximate(product)),
         );
-        for input in &self.inputs {
-            if let (Domain::Discrete(levels), None) = (&input.domain, input.fetched) {
-                error = error.at(input.span, format!("{} levels", levels.count()));
-            }
+        let discrete = self.inputs.iter().filter_map(|input| match (&input.domain, input.fetched) {
+            (Domain::Discrete(levels), None) => Some((input, levels.count())),
+            _ => None,
+        });
+        let mut discrete: Vec<_> = discrete.collect();
+        // The sort is stable: of equally large inputs the first ones are shown.
+        discrete.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+        for (input, count) in discrete.iter().take(8) {
+            error = error.at(input.span, format!("{count} levels"));
+        }
+        if discrete.len() > 8 {
+            error = error.help(format!("these are the largest of {} discrete inputs", discrete.len()));
         }
         error
             .help(format!("every state is proved one by one, so there can be at most {}", StateSpace::MAX))
@@ -325,6 +340,10 @@ impl<'t> Lowering<'t> {
         for named in &table.names {
             // Lowered where used, but a mistake in an unused one is a mistake too.
             let _ = keep(self.term_of_name(&named.name.value), errors);
+            // A chain of names that is too long would be reported once per link.
+            if errors.last().is_some_and(|e| e.code == codes::TOO_DEEP) {
+                break;
+            }
         }
         let mut rows = Vec::new();
         for case in &table.cases {
@@ -377,6 +396,15 @@ impl<'t> Lowering<'t> {
         self.input_index.get(name).copied()
     }
 
+    pub(super) fn unknown_input(&self, name: &Spanned<String>, label: &str) -> Diagnostic {
+        let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", name.value));
+        let known = || self.inputs.iter().map(|i| i.name.as_str());
+        error.at(name.span, label).help(match table::nearest(&name.value, known()) {
+            Some(close) => format!("did you mean `{close}`?"),
+            None => format!("the inputs are: {}", known().collect::<Vec<_>>().join(", ")),
+        })
+    }
+
     fn term_of_name(&mut self, name: &str) -> Result<Term> {
         let expr = Expr { span: Span::default(), kind: ExprKind::Name(name.to_owned()) };
         self.term(&expr, &Env::default(), Expected::Anything)
@@ -399,7 +427,9 @@ impl<'t> Lowering<'t> {
     /// Ties a value to the output: the components, clamped.
     fn result(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
         let wrong = |found: &str, wanted: &str| {
-            Err(Diagnostic::error(codes::TYPE, format!("this is {found}")).at(span, format!("the output is {wanted}")))
+            Err(Diagnostic::error(codes::TYPE, format!("the output is {wanted}, but this is {found}"))
+                .at(span, format!("this is {found}"))
+                .help("what the table returns is declared under `output`"))
         };
         let clamp = match &self.table.output.value {
             table::Output::Number(clamp) | table::Output::Vector(_, clamp) => *clamp,
@@ -470,7 +500,8 @@ impl<'t> Lowering<'t> {
                 let CaseBody::Rows { when, lines } = &base_case.body else {
                     let message = format!("case {} is itself an image", base.value);
                     return Err(Diagnostic::error(codes::REFERENCE_DEPTH, message)
-                        .at(base.span, "an image is taken of a case that is written out"));
+                        .at(base.span, "an image is taken of a case that is written out")
+                        .help("name the case that has a guard and a value"));
                 };
                 let table = self.table;
                 let Some(symmetry) = table.symmetries.iter().find(|s| s.name.value == under.value) else {
@@ -526,8 +557,7 @@ impl<'t> Lowering<'t> {
         let mut images = HashMap::new();
         for (name, image) in &symmetry.map {
             let Some(input) = self.input_named(&name.value) else {
-                return Err(Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", name.value))
-                    .at(name.span, "only inputs are mapped"));
+                return Err(self.unknown_input(name, "only inputs are mapped"));
             };
             let term = match image {
                 Image::Expr(expr) => self.term_for_input(input, expr, env)?,
@@ -553,10 +583,7 @@ impl<'t> Lowering<'t> {
             |at: Span| Diagnostic::error(codes::SYMMETRY, "only named levels can be renamed").at(at, "has none");
         let origin = match from {
             None => input,
-            Some(from) => self.input_named(&from.value).ok_or_else(|| {
-                Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", from.value))
-                    .at(from.span, "unknown input")
-            })?,
+            Some(from) => self.input_named(&from.value).ok_or_else(|| self.unknown_input(from, "unknown input"))?,
         };
         let to_set = self.input_sets[input.index()].ok_or_else(|| no_levels(name.span))?;
         let Term::Level(from_set, term) = self.input_term(origin, env) else { return Err(no_levels(name.span)) };
@@ -612,8 +639,7 @@ impl<'t> Lowering<'t> {
         let mut inputs: Vec<Option<Value>> = self.inputs.iter().map(|i| i.default).collect();
         for (name, value) in &example.inputs {
             let Some(input) = self.input_named(&name.value) else {
-                return Err(Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", name.value))
-                    .at(name.span, "unknown input"));
+                return Err(self.unknown_input(name, "unknown input"));
             };
             inputs[input.index()] = Some(literal(&self.inputs[input.index()], value)?);
         }
@@ -675,10 +701,27 @@ mod tests {
     use crate::program::Program;
     use crate::table::Table;
 
+    #[test]
+    fn uses_that_multiply_are_refused_in_time() {
+        let names: String =
+            (0..60).map(|i| format!("\"n{}\": \"if true {{ n{i} }} else {{ n{i} }}\",", i + 1)).collect();
+        let text = format!(
+            r#"Table(language: 1, name: "t", hit_policy: First,
+                inputs: {{"s": Bool(), "x": Range(from: 0, to: 1)}},
+                names: {{"n0": "x", {names}}},
+                output: Number(),
+                cases: [Case(id: 1, when: "s", value: "n60"), Case(id: 2, when: "!s", value: "case(1, x = 0)")],
+                default: 0)"#
+        );
+        let program = Table::parse(Source::new("t", text)).and_then(|table| Program::check(&table));
+        let message = program.err().map(|e| e.diagnostics[0].message.clone());
+        assert_eq!(message.as_deref(), Some("names and references multiply beyond measure"));
+    }
+
     /// The deepest accepted nesting, and one beyond any bound, on a thread with little stack.
     #[test]
     fn long_chains_of_names_are_refused_in_time() {
-        let nested = format!("{}x{}", "if s { ".repeat(28), " } else { 0 }".repeat(28));
+        let nested = format!("{}x{}", "if s { ".repeat(20), " } else { 0 }".repeat(20));
         let chain = |length: usize| -> String {
             (0..length).map(|i| format!("\"n{i}\": \"{}\",", nested.replace('x', &format!("n{}", i + 1)))).collect()
         };

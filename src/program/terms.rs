@@ -93,6 +93,12 @@ impl Lowering<'_> {
                 .at(expr.span, format!("level {MAX_NESTING} is reached here"))
                 .help("shorten the chain of names that use each other and lead here"));
         }
+        // Where a name or case is used under a replacement it is lowered anew, so uses can multiply.
+        self.budget = self.budget.checked_sub(1).ok_or_else(|| {
+            Diagnostic::error(codes::TOO_DEEP, "names and references multiply beyond measure")
+                .at(expr.span, "given up here")
+                .help("use fewer names that use other names twice, or none under `case(...)` and `is`")
+        })?;
         self.nesting += 1;
         let term = self.term_inner(expr, env, expected);
         self.nesting -= 1;
@@ -155,7 +161,7 @@ impl Lowering<'_> {
             }
             ExprKind::List(items) => match expected {
                 Expected::List(set, max) => self.list(items, set, max, span, env),
-                _ => Err(type_error(span, "a list", "only a table with `output: List(…)` has lists as values")),
+                _ => Err(type_error(span, "a list", "only a table with `output: List(...)` has lists as values")),
             },
         }
     }
@@ -246,7 +252,8 @@ impl Lowering<'_> {
             let chain = self.resolving.iter().chain([&index]).map(|i| self.table.names[*i].name.value.as_str());
             let chain = chain.collect::<Vec<_>>().join(" -> ");
             return Err(Diagnostic::error(codes::CIRCULAR_NAME, format!("`{name}` is defined by itself"))
-                .at(entry.value.span, chain));
+                .at(entry.value.span, chain)
+                .help("a name stands for something else: write out one of the definitions"));
         }
         self.resolving.push(index);
         let inner = Env { locals: Vec::new(), ..env.clone() };
@@ -279,7 +286,7 @@ impl Lowering<'_> {
     fn no_number(&self, term: &Term, span: Span) -> Diagnostic {
         let error = type_error(span, &self.describe(term), "expected a number");
         match term {
-            Term::Level(..) | Term::Bool(_) => error.help("`f32(…)` gives the number that stands for it"),
+            Term::Level(..) | Term::Bool(_) => error.help("`f32(...)` gives the number that stands for it"),
             _ => error,
         }
     }
@@ -361,11 +368,7 @@ impl Lowering<'_> {
                 return Err(type_error(other.span, &self.describe(&right), "expected a level, as on the other side"));
             };
             if right_set != set {
-                return Err(type_error(
-                    other.span,
-                    &self.describe(&right),
-                    "these are not the levels of the other side",
-                ));
+                return Err(type_error(other.span, &self.describe(&right), "the other side has other levels"));
             }
             let both: Vec<CondId> = (0..self.sets[set.0].count() as u8)
                 .map(|level| {
@@ -384,7 +387,7 @@ impl Lowering<'_> {
                 Ok(self.pool.cond_if(a, b, not_b))
             }
             _ => {
-                let message = format!("cannot be compared with {}", self.describe(&left));
+                let message = format!("the other side of the comparison is {}", self.describe(&left));
                 Err(type_error(other.span, &self.describe(&right), &message))
             }
         }
@@ -576,9 +579,14 @@ impl Lowering<'_> {
             (Term::Number(a), Term::Vector(b)) => Ok((vec![a; b.len()], b, false)),
             (Term::Vector(a), Term::Vector(b)) if a.len() == b.len() => Ok((a, b, false)),
             (a @ (Term::Number(_) | Term::Vector(_)), b) | (b, a @ (Term::Number(_) | Term::Vector(_))) => {
-                let message = format!("does not go with {}", self.describe(&a));
-                Err(type_error(span, &self.describe(&b), &message)
-                    .help("`f32(…)` gives the number of a level or condition"))
+                let message = format!("{} and {} do not go together", self.describe(&a), self.describe(&b));
+                let error = Diagnostic::error(codes::TYPE, message).at(span, "in this operation");
+                Err(match b {
+                    Term::Level(..) | Term::Bool(_) => {
+                        error.help("`f32(...)` gives the number of a level or condition")
+                    }
+                    _ => error,
+                })
             }
             (a, _) => Err(self.no_number(&a, span)),
         }
@@ -808,7 +816,8 @@ impl Lowering<'_> {
         if env.cases.contains(&id.value) {
             let chain = env.cases.iter().chain([&id.value]).map(u32::to_string).collect::<Vec<_>>().join(" -> ");
             return Err(Diagnostic::error(codes::CIRCULAR_CASE, format!("case {} refers to itself", id.value))
-                .at(id.span, format!("closes the circle {chain}")));
+                .at(id.span, format!("closes the circle {chain}"))
+                .help("write out the value of one of these cases"));
         }
         if env.referenced {
             let from = env.cases.last().copied().unwrap_or_default();
@@ -822,8 +831,7 @@ impl Lowering<'_> {
         let mut overrides = (*env.overrides).clone();
         for (name, value) in set {
             let Some(input) = self.input_named(&name.value) else {
-                return Err(Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", name.value))
-                    .at(name.span, "only inputs can be replaced"));
+                return Err(self.unknown_input(name, "only inputs can be replaced"));
             };
             let term = self.term_for_input(input, value, env)?;
             overrides.insert(input, term);
@@ -885,5 +893,5 @@ impl Lowering<'_> {
 }
 
 fn type_error(span: Span, found: &str, message: &str) -> Diagnostic {
-    Diagnostic::error(codes::TYPE, format!("this is {found}")).at(span, message.to_owned())
+    Diagnostic::error(codes::TYPE, format!("{message}, but this is {found}")).at(span, format!("this is {found}"))
 }

@@ -277,10 +277,14 @@ pub(crate) fn read_text(path: &Path, max: u64) -> Result<String, Failure> {
     }
     let bytes = std::fs::read(path)
         .map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions"))?;
-    String::from_utf8(bytes).map_err(|e| {
-        let at = e.utf8_error().valid_up_to();
-        fail(&format!("is not UTF-8 text (byte {at})"), "save it as UTF-8")
-    })
+    String::from_utf8(bytes).map_err(|e| fail(&not_utf8(&e), "save it as UTF-8"))
+}
+
+/// Says that bytes are not text, and where.
+pub(crate) fn not_utf8(error: &std::string::FromUtf8Error) -> String {
+    let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+    let (line, column) = Source::new("", String::from_utf8_lossy(good)).line_column(good.len());
+    format!("is not UTF-8 text at line {line}, column {column}")
 }
 
 /// The reason of an I/O error in words that do not depend on the platform.

@@ -74,6 +74,20 @@ impl<'a> Reader<'a> {
         Raw(&self.source.text)
     }
 
+    /// Where the first thing stands that is neither blank nor a comment.
+    pub(super) fn first(&self) -> usize {
+        let mut rest = self.source.text.as_str();
+        loop {
+            rest = rest.trim_start();
+            let end = match rest.get(..2) {
+                Some("//") => rest.find('\n').unwrap_or(rest.len()),
+                Some("/*") => rest.find("*/").map_or(rest.len(), |i| i + 2),
+                _ => return self.source.text.len() - rest.len(),
+            };
+            rest = &rest[end..];
+        }
+    }
+
     /// Where a piece stands.
     pub(super) fn span(&self, raw: Raw<'a>) -> Span {
         // A `Raw` is a slice of the source, so the difference of the addresses is its offset.
@@ -89,7 +103,10 @@ impl<'a> Reader<'a> {
             let offset = |p: ron::error::Position| base + Source::offset(raw.0, p.line, p.col);
             let (start, end) = (offset(error.span.start), offset(error.span.end));
             let end = end.max(start).min(self.source.text.len());
-            describe(&error.code).at(Span::new(start.min(end), end), "here")
+            let start = start.min(end);
+            // What is missing at the end of a line is shown there.
+            let end = self.source.text[start..end].find('\n').map_or(end, |newline| start + newline);
+            describe(&error.code).at(Span::new(start, end), "here")
         })
     }
 
@@ -187,8 +204,36 @@ fn describe(error: &ron::Error) -> Diagnostic {
         E::InvalidValueForType { expected, found } => {
             Diagnostic::error(codes::STRUCTURE, format!("expected {expected}, found {found}"))
         }
-        other => Diagnostic::error(codes::RON, format!("malformed RON: {}", lower_first(&other.to_string()))),
+        E::ExpectedInteger => expected("a whole number"),
+        E::ExpectedFloat => expected("a number"),
+        E::ExpectedBoolean => expected("`true` or `false`"),
+        E::ExpectedString => expected("a text in double quotes"),
+        E::ExpectedArray => expected("a list, written [a, b]"),
+        E::ExpectedMap => expected("a map, written {\"name\": value}"),
+        E::ExpectedStructLike | E::ExpectedNamedStructLike(_) => {
+            expected("fields in parentheses, written (name: value)")
+        }
+        E::ExpectedComma => malformed("a comma is missing before this").help(UNCLOSED),
+        E::ExpectedMapColon | E::ExpectedStructLikeEnd | E::ExpectedArrayEnd | E::ExpectedMapEnd => {
+            malformed(&lower_first(&error.to_string())).help(UNCLOSED)
+        }
+        E::Eof => malformed("the file ends here, but a bracket is still open").help(UNCLOSED),
+        E::ExpectedStringEnd => malformed("the text that begins here never ends").help("close it with a double quote"),
+        E::TrailingCharacters => {
+            malformed("the table ends before this").help("remove what follows, or a closing bracket too many before it")
+        }
+        other => malformed(&lower_first(&other.to_string())),
     }
+}
+
+const UNCLOSED: &str = "if it looks right here, look above for a bracket or a double quote that is not closed";
+
+fn malformed(what: &str) -> Diagnostic {
+    Diagnostic::error(codes::RON, format!("malformed RON: {what}"))
+}
+
+fn expected(what: &str) -> Diagnostic {
+    Diagnostic::error(codes::STRUCTURE, format!("expected {what}"))
 }
 
 fn lower_first(text: &str) -> String {

@@ -12,7 +12,7 @@ use super::{
     Assumption, Case, CaseBody, Domain, Erratum, Example, HitPolicy, Image, Input, LANGUAGE, Level, Line, Named,
     Output, Symmetry, Table,
 };
-use crate::diag::{Diagnostic, Source, Spanned, codes};
+use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
 use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, Diagnostic>;
@@ -170,6 +170,17 @@ struct ImageOfRon<'a> {
 /// Reads a whole table, collecting as many mistakes as possible.
 pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diagnostic>> {
     let read = Reader::new(source);
+    let start = read.first();
+    let rest = &source.text[start..];
+    // The name may be left out in RON; an attribute enables extensions.
+    if !["Table", "(", "#"].iter().any(|opening| rest.starts_with(opening)) {
+        let end = start + rest.chars().next().map_or(0, char::len_utf8);
+        return Err(vec![
+            Diagnostic::error(codes::STRUCTURE, "this file contains no table")
+                .at(Span::new(start, end), "expected `Table(`")
+                .help("a table is written: Table(language: 1, name: \"...\", hit_policy: First, inputs: {...}, ...)"),
+        ]);
+    }
     let ron: TableRon<'_> = read.get(read.whole()).map_err(|d| vec![d])?;
     let language = read.spanned::<u32>(ron.language).map_err(|d| vec![d])?;
     if language.value != LANGUAGE {
@@ -307,7 +318,7 @@ impl<'a> Reader<'a> {
 
     fn no_condition(&self, raw: Raw<'a>) -> Diagnostic {
         Diagnostic::error(codes::STRUCTURE, "expected a condition").at(self.span(raw), "not a condition").help(
-            "write \"H == left && tV == dual_positive\", {\"H\": [\"left\", \"right\"]}, All([…]), Any([…]) or Not(…)",
+            "write \"H == left && tV == dual_positive\", {\"H\": [\"left\", \"right\"]}, All([...]), Any([...]) or Not(...)",
         )
     }
 
