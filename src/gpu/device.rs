@@ -73,17 +73,13 @@ impl Gpu {
     /// When there is no such adapter, or it refuses to give a device.
     pub fn open(choice: &AdapterChoice) -> Result<Self, Failure> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-        let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
-        // GL is a fallback: the same device is better served by Vulkan.
-        let rank = |info: &wgpu::AdapterInfo| {
-            let device = match info.device_type {
-                wgpu::DeviceType::DiscreteGpu => 0,
-                wgpu::DeviceType::IntegratedGpu => 1,
-                wgpu::DeviceType::VirtualGpu => 2,
-                wgpu::DeviceType::Other => 3,
-                wgpu::DeviceType::Cpu => 4,
-            };
-            (device, info.backend == wgpu::Backend::Gl)
+        let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
+        let rank = |info: &wgpu::AdapterInfo| match info.device_type {
+            wgpu::DeviceType::DiscreteGpu => 0,
+            wgpu::DeviceType::IntegratedGpu => 1,
+            wgpu::DeviceType::VirtualGpu => 2,
+            wgpu::DeviceType::Other => 3,
+            wgpu::DeviceType::Cpu => 4,
         };
         adapters.sort_by_key(|adapter| rank(&adapter.get_info()));
         let Some(adapter) = adapters.iter().find(|adapter| choice.admits(&adapter.get_info())) else {

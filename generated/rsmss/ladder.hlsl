@@ -1,0 +1,1620 @@
+struct RsmssResult {
+    float value;
+    uint case_id;
+};
+
+struct RsmssSite {
+    uint row;
+};
+
+static const uint RSMSS_H_NONE = 0u;
+static const uint RSMSS_H_RIGHT = 1u;
+static const uint RSMSS_H_LEFT = 2u;
+static const uint RSMSS_H_BOTH = 3u;
+static const uint RSMSS_V_NONE = 0u;
+static const uint RSMSS_V_TOP = 1u;
+static const uint RSMSS_V_BOTTOM = 2u;
+static const uint RSMSS_V_BOTH = 3u;
+static const uint RSMSS_B_ENTERING = 0u;
+static const uint RSMSS_B_EXITING = 1u;
+static const uint RSMSS_TH_DUAL_NEGATIVE = 0u;
+static const uint RSMSS_TH_POSITIVE_NEGATIVE = 1u;
+static const uint RSMSS_TH_DUAL_POSITIVE = 2u;
+static const uint RSMSS_DEFAULT = 4294967295u;
+
+RWByteAddressBuffer umbrage_out : register(u2);
+ByteAddressBuffer umbrage_fetched : register(t1);
+ByteAddressBuffer umbrage_plain : register(t0);
+
+uint rsmss_H_level(float code)
+{
+    return ((uint((code >= 0.125)) + uint((code >= 0.375))) + uint((code >= 0.625)));
+}
+
+uint rsmss_V_level(float code_1)
+{
+    return ((uint((code_1 >= 0.125)) + uint((code_1 >= 0.375))) + uint((code_1 >= 0.625)));
+}
+
+uint rsmss_b_level(float code_2)
+{
+    return uint((code_2 >= 0.5));
+}
+
+uint rsmss_tH_level(float code_3)
+{
+    return (uint((code_3 >= -0.5)) + uint((code_3 >= 0.5)));
+}
+
+uint rsmss_pack(float H, float V, float b, float tH, float tV, bool domH, bool domV)
+{
+    const uint _e7 = rsmss_H_level(H);
+    const uint _e8 = rsmss_V_level(V);
+    const uint _e12 = rsmss_b_level(b);
+    const uint _e16 = rsmss_tH_level(tH);
+    const uint _e20 = rsmss_tH_level(tV);
+    return ((((((_e7 | (_e8 << 2u)) | (_e12 << 4u)) | (_e16 << 5u)) | (_e20 << 7u)) | (uint(domH) << 9u)) | (uint(domV) << 10u));
+}
+
+uint rsmss_fetch_n_top(RsmssSite site)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site.row * 4u) + 2u)*4, asuint((_e15 + 1u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site.row * 10u) + 0u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_n_bottom(RsmssSite site_1)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_1.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site_1.row * 4u) + 2u)*4, asuint((_e15 + 16u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_1.row * 10u) + 1u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_n_left(RsmssSite site_2)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_2.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site_2.row * 4u) + 2u)*4, asuint((_e15 + 256u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_2.row * 10u) + 2u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_n_right(RsmssSite site_3)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_3.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site_3.row * 4u) + 2u)*4, asuint((_e15 + 4096u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_3.row * 10u) + 3u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_d_cb_h(RsmssSite site_4)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_4.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site_4.row * 4u) + 2u)*4, asuint((_e15 + 65536u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_4.row * 10u) + 4u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_d_cb_top(RsmssSite site_5)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_5.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site_5.row * 4u) + 2u)*4, asuint((_e15 + 16777216u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_5.row * 10u) + 6u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_d_cb_bottom(RsmssSite site_6)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_6.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site_6.row * 4u) + 2u)*4, asuint((_e15 + 268435456u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_6.row * 10u) + 7u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_d_cb_v(RsmssSite site_7)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_7.row * 4u) + 2u)*4));
+    umbrage_out.Store(((site_7.row * 4u) + 2u)*4, asuint((_e15 + 1048576u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_7.row * 10u) + 5u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_d_cb_left(RsmssSite site_8)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_8.row * 4u) + 3u)*4));
+    umbrage_out.Store(((site_8.row * 4u) + 3u)*4, asuint((_e15 + 1u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_8.row * 10u) + 8u)*4));
+    return _e25;
+}
+
+uint rsmss_fetch_d_cb_right(RsmssSite site_9)
+{
+    uint _e15 = asuint(umbrage_out.Load(((site_9.row * 4u) + 3u)*4));
+    umbrage_out.Store(((site_9.row * 4u) + 3u)*4, asuint((_e15 + 16u)));
+    uint _e25 = asuint(umbrage_fetched.Load(((site_9.row * 10u) + 9u)*4));
+    return _e25;
+}
+
+RsmssResult ConstructRsmssResult(float arg0, uint arg1) {
+    RsmssResult ret = (RsmssResult)0;
+    ret.value = arg0;
+    ret.case_id = arg1;
+    return ret;
+}
+
+RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, RsmssSite site_10)
+{
+    bool local = (bool)0;
+    bool local_1 = (bool)0;
+    bool local_2 = (bool)0;
+    bool local_3 = (bool)0;
+    bool local_4 = (bool)0;
+    bool local_5 = (bool)0;
+    bool local_6 = (bool)0;
+    bool local_7 = (bool)0;
+    bool local_8 = (bool)0;
+    bool local_9 = (bool)0;
+    bool local_10 = (bool)0;
+    bool local_11 = (bool)0;
+    bool local_12 = (bool)0;
+    bool local_13 = (bool)0;
+    bool local_14 = (bool)0;
+    bool local_15 = (bool)0;
+    bool local_16 = (bool)0;
+    bool local_17 = (bool)0;
+    bool local_18 = (bool)0;
+    bool local_19 = (bool)0;
+    bool local_20 = (bool)0;
+    bool local_21 = (bool)0;
+    bool local_22 = (bool)0;
+    bool local_23 = (bool)0;
+    bool local_24 = (bool)0;
+    bool local_25 = (bool)0;
+    bool local_26 = (bool)0;
+    bool local_27 = (bool)0;
+    bool local_28 = (bool)0;
+    bool local_29 = (bool)0;
+    bool local_30 = (bool)0;
+    bool local_31 = (bool)0;
+    bool local_32 = (bool)0;
+    bool local_33 = (bool)0;
+    bool local_34 = (bool)0;
+    bool local_35 = (bool)0;
+    bool local_36 = (bool)0;
+    bool local_37 = (bool)0;
+    bool local_38 = (bool)0;
+    bool local_39 = (bool)0;
+    bool local_40 = (bool)0;
+    bool local_41 = (bool)0;
+    bool local_42 = (bool)0;
+    bool local_43 = (bool)0;
+    bool local_44 = (bool)0;
+    bool local_45 = (bool)0;
+    bool local_46 = (bool)0;
+    bool local_47 = (bool)0;
+    bool local_48 = (bool)0;
+    bool local_49 = (bool)0;
+    bool local_50 = (bool)0;
+    bool local_51 = (bool)0;
+    bool local_52 = (bool)0;
+    bool local_53 = (bool)0;
+    bool local_54 = (bool)0;
+    bool local_55 = (bool)0;
+    bool local_56 = (bool)0;
+    bool local_57 = (bool)0;
+    bool local_58 = (bool)0;
+    bool local_59 = (bool)0;
+    bool local_60 = (bool)0;
+    bool local_61 = (bool)0;
+    bool local_62 = (bool)0;
+    bool local_63 = (bool)0;
+    bool local_64 = (bool)0;
+    bool local_65 = (bool)0;
+    bool local_66 = (bool)0;
+    bool local_67 = (bool)0;
+    bool local_68 = (bool)0;
+    bool local_69 = (bool)0;
+    bool local_70 = (bool)0;
+    bool local_71 = (bool)0;
+    bool local_72 = (bool)0;
+    bool local_73 = (bool)0;
+    bool local_74 = (bool)0;
+    bool local_75 = (bool)0;
+    bool local_76 = (bool)0;
+    bool local_77 = (bool)0;
+    bool local_78 = (bool)0;
+    bool local_79 = (bool)0;
+    bool local_80 = (bool)0;
+    bool local_81 = (bool)0;
+    bool local_82 = (bool)0;
+    bool local_83 = (bool)0;
+    bool local_84 = (bool)0;
+    bool local_85 = (bool)0;
+    bool local_86 = (bool)0;
+    bool local_87 = (bool)0;
+    bool local_88 = (bool)0;
+    bool local_89 = (bool)0;
+    bool local_90 = (bool)0;
+    bool local_91 = (bool)0;
+    bool local_92 = (bool)0;
+    bool local_93 = (bool)0;
+    bool local_94 = (bool)0;
+    bool local_95 = (bool)0;
+    bool local_96 = (bool)0;
+    bool local_97 = (bool)0;
+    bool local_98 = (bool)0;
+    bool local_99 = (bool)0;
+    bool local_100 = (bool)0;
+    bool local_101 = (bool)0;
+    bool local_102 = (bool)0;
+    bool local_103 = (bool)0;
+    bool local_104 = (bool)0;
+    bool local_105 = (bool)0;
+    bool local_106 = (bool)0;
+    bool local_107 = (bool)0;
+    bool local_108 = (bool)0;
+    bool local_109 = (bool)0;
+    bool local_110 = (bool)0;
+    bool local_111 = (bool)0;
+    bool local_112 = (bool)0;
+    bool local_113 = (bool)0;
+    bool local_114 = (bool)0;
+    bool local_115 = (bool)0;
+    bool local_116 = (bool)0;
+    bool local_117 = (bool)0;
+    bool local_118 = (bool)0;
+    bool local_119 = (bool)0;
+    bool local_120 = (bool)0;
+    bool local_121 = (bool)0;
+    bool local_122 = (bool)0;
+    bool local_123 = (bool)0;
+    bool local_124 = (bool)0;
+    bool local_125 = (bool)0;
+    bool local_126 = (bool)0;
+    bool local_127 = (bool)0;
+
+    uint H_3 = (key & 3u);
+    uint V_3 = ((key >> 2u) & 3u);
+    uint b_3 = ((key >> 4u) & 1u);
+    uint tH_3 = ((key >> 5u) & 3u);
+    uint tV_3 = ((key >> 7u) & 3u);
+    bool domH_3 = (((key >> 9u) & 1u) != 0u);
+    bool domV_3 = (((key >> 10u) & 1u) != 0u);
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        if (!((tH_3 == RSMSS_TH_DUAL_NEGATIVE))) {
+            local_1 = (tV_3 == RSMSS_TH_DUAL_NEGATIVE);
+        } else {
+            local_1 = true;
+        }
+        bool _e48 = local_1;
+        local = _e48;
+    } else {
+        local = false;
+    }
+    bool _e50 = local;
+    if (_e50) {
+        const RsmssResult rsmssresult = ConstructRsmssResult(1.0, 1u);
+        return rsmssresult;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_2 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_2 = false;
+    }
+    bool _e61 = local_2;
+    if (_e61) {
+        local_3 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_3 = false;
+    }
+    bool _e67 = local_3;
+    if (_e67) {
+        const RsmssResult rsmssresult_1 = ConstructRsmssResult(0.0, 2u);
+        return rsmssresult_1;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_4 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_4 = false;
+    }
+    bool _e78 = local_4;
+    if (_e78) {
+        local_5 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_5 = false;
+    }
+    bool _e84 = local_5;
+    if (_e84) {
+        const RsmssResult rsmssresult_2 = ConstructRsmssResult(1.0, 3u);
+        return rsmssresult_2;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_6 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_6 = false;
+    }
+    bool _e95 = local_6;
+    if (_e95) {
+        local_7 = (V_3 == RSMSS_V_NONE);
+    } else {
+        local_7 = false;
+    }
+    bool _e101 = local_7;
+    if (_e101) {
+        local_8 = (tV_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_8 = false;
+    }
+    bool _e107 = local_8;
+    if (_e107) {
+        const uint _e108 = rsmss_fetch_n_top(site_10);
+        if ((_e108 == RSMSS_H_BOTH)) {
+            const uint _e111 = rsmss_fetch_n_bottom(site_10);
+            if ((_e111 == RSMSS_H_BOTH)) {
+                const RsmssResult rsmssresult_3 = ConstructRsmssResult(0.0, 4u);
+                return rsmssresult_3;
+            }
+            if ((_e111 == RSMSS_H_LEFT)) {
+                const RsmssResult rsmssresult_4 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 4u);
+                return rsmssresult_4;
+            }
+            if ((_e111 == RSMSS_H_RIGHT)) {
+                const RsmssResult rsmssresult_5 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 4u);
+                return rsmssresult_5;
+            }
+            const RsmssResult rsmssresult_6 = ConstructRsmssResult(1.0, 4u);
+            return rsmssresult_6;
+        }
+        const uint _e138 = rsmss_fetch_n_bottom(site_10);
+        if ((_e138 == RSMSS_H_LEFT)) {
+            const RsmssResult rsmssresult_7 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 4u);
+            return rsmssresult_7;
+        }
+        if ((_e138 == RSMSS_H_RIGHT)) {
+            const RsmssResult rsmssresult_8 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 4u);
+            return rsmssresult_8;
+        }
+        if ((_e108 == RSMSS_H_LEFT)) {
+            const RsmssResult rsmssresult_9 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 4u);
+            return rsmssresult_9;
+        }
+        if ((_e108 == RSMSS_H_RIGHT)) {
+            const RsmssResult rsmssresult_10 = ConstructRsmssResult(clamp(((1.0 - px) - py), 0.0, 1.0), 4u);
+            return rsmssresult_10;
+        }
+        const RsmssResult rsmssresult_11 = ConstructRsmssResult(1.0, 4u);
+        return rsmssresult_11;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_9 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_9 = false;
+    }
+    bool _e185 = local_9;
+    if (_e185) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_11 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_11 = true;
+        }
+        bool _e196 = local_11;
+        local_10 = _e196;
+    } else {
+        local_10 = false;
+    }
+    bool _e198 = local_10;
+    if (_e198) {
+        local_12 = (tV_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_12 = false;
+    }
+    bool _e204 = local_12;
+    if (_e204) {
+        if ((V_3 == RSMSS_V_TOP)) {
+            const uint _e207 = rsmss_fetch_n_bottom(site_10);
+            if ((_e207 == RSMSS_H_BOTH)) {
+                const RsmssResult rsmssresult_12 = ConstructRsmssResult(clamp(min(min(((1.0 + px) - dV), ((2.0 - px) - dV)), py), 0.0, 1.0), 5u);
+                return rsmssresult_12;
+            }
+            if ((_e207 == RSMSS_H_LEFT)) {
+                const RsmssResult rsmssresult_13 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 5u);
+                return rsmssresult_13;
+            }
+            if ((_e207 == RSMSS_H_RIGHT)) {
+                const RsmssResult rsmssresult_14 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 5u);
+                return rsmssresult_14;
+            }
+            const RsmssResult rsmssresult_15 = ConstructRsmssResult(1.0, 5u);
+            return rsmssresult_15;
+        }
+        const uint _e244 = rsmss_fetch_n_top(site_10);
+        if ((_e244 == RSMSS_H_BOTH)) {
+            const RsmssResult rsmssresult_16 = ConstructRsmssResult(clamp(min(min(((1.0 + px) - dV), ((2.0 - px) - dV)), (1.0 - py)), 0.0, 1.0), 5u);
+            return rsmssresult_16;
+        }
+        if ((_e244 == RSMSS_H_LEFT)) {
+            const RsmssResult rsmssresult_17 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 5u);
+            return rsmssresult_17;
+        }
+        if ((_e244 == RSMSS_H_RIGHT)) {
+            const RsmssResult rsmssresult_18 = ConstructRsmssResult(clamp(((1.0 - px) - py), 0.0, 1.0), 5u);
+            return rsmssresult_18;
+        }
+        const RsmssResult rsmssresult_19 = ConstructRsmssResult(1.0, 5u);
+        return rsmssresult_19;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_13 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_13 = false;
+    }
+    bool _e290 = local_13;
+    if (_e290) {
+        local_14 = (H_3 == RSMSS_H_NONE);
+    } else {
+        local_14 = false;
+    }
+    bool _e296 = local_14;
+    if (_e296) {
+        local_15 = (tH_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_15 = false;
+    }
+    bool _e302 = local_15;
+    if (_e302) {
+        const uint _e303 = rsmss_fetch_n_left(site_10);
+        if ((_e303 == RSMSS_V_BOTH)) {
+            const uint _e306 = rsmss_fetch_n_right(site_10);
+            if ((_e306 == RSMSS_V_BOTH)) {
+                const RsmssResult rsmssresult_20 = ConstructRsmssResult(0.0, 6u);
+                return rsmssresult_20;
+            }
+            if ((_e306 == RSMSS_V_TOP)) {
+                const RsmssResult rsmssresult_21 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 6u);
+                return rsmssresult_21;
+            }
+            if ((_e306 == RSMSS_V_BOTTOM)) {
+                const RsmssResult rsmssresult_22 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 6u);
+                return rsmssresult_22;
+            }
+            const RsmssResult rsmssresult_23 = ConstructRsmssResult(1.0, 6u);
+            return rsmssresult_23;
+        }
+        const uint _e333 = rsmss_fetch_n_right(site_10);
+        if ((_e333 == RSMSS_V_TOP)) {
+            const RsmssResult rsmssresult_24 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 6u);
+            return rsmssresult_24;
+        }
+        if ((_e303 == RSMSS_V_TOP)) {
+            const RsmssResult rsmssresult_25 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 6u);
+            return rsmssresult_25;
+        }
+        if ((_e333 == RSMSS_V_BOTTOM)) {
+            const RsmssResult rsmssresult_26 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 6u);
+            return rsmssresult_26;
+        }
+        if ((_e303 == RSMSS_V_BOTTOM)) {
+            const RsmssResult rsmssresult_27 = ConstructRsmssResult(clamp(((1.0 - px) - py), 0.0, 1.0), 6u);
+            return rsmssresult_27;
+        }
+        const RsmssResult rsmssresult_28 = ConstructRsmssResult(1.0, 6u);
+        return rsmssresult_28;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_16 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_16 = false;
+    }
+    bool _e380 = local_16;
+    if (_e380) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_18 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_18 = true;
+        }
+        bool _e391 = local_18;
+        local_17 = _e391;
+    } else {
+        local_17 = false;
+    }
+    bool _e393 = local_17;
+    if (_e393) {
+        local_19 = (tH_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_19 = false;
+    }
+    bool _e399 = local_19;
+    if (_e399) {
+        if ((H_3 == RSMSS_H_LEFT)) {
+            const uint _e402 = rsmss_fetch_n_right(site_10);
+            if ((_e402 == RSMSS_V_BOTH)) {
+                const RsmssResult rsmssresult_29 = ConstructRsmssResult(clamp(min(min(((1.0 + py) - dH), ((2.0 - py) - dH)), px), 0.0, 1.0), 7u);
+                return rsmssresult_29;
+            }
+            if ((_e402 == RSMSS_V_TOP)) {
+                const RsmssResult rsmssresult_30 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 7u);
+                return rsmssresult_30;
+            }
+            if ((_e402 == RSMSS_V_BOTTOM)) {
+                const RsmssResult rsmssresult_31 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 7u);
+                return rsmssresult_31;
+            }
+            const RsmssResult rsmssresult_32 = ConstructRsmssResult(1.0, 7u);
+            return rsmssresult_32;
+        }
+        const uint _e439 = rsmss_fetch_n_left(site_10);
+        if ((_e439 == RSMSS_V_BOTH)) {
+            const RsmssResult rsmssresult_33 = ConstructRsmssResult(clamp(min(min(((1.0 + py) - dH), ((2.0 - py) - dH)), (1.0 - px)), 0.0, 1.0), 7u);
+            return rsmssresult_33;
+        }
+        if ((_e439 == RSMSS_V_TOP)) {
+            const RsmssResult rsmssresult_34 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 7u);
+            return rsmssresult_34;
+        }
+        if ((_e439 == RSMSS_V_BOTTOM)) {
+            const RsmssResult rsmssresult_35 = ConstructRsmssResult(clamp(((1.0 - px) - py), 0.0, 1.0), 7u);
+            return rsmssresult_35;
+        }
+        const RsmssResult rsmssresult_36 = ConstructRsmssResult(1.0, 7u);
+        return rsmssresult_36;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_20 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_20 = false;
+    }
+    bool _e485 = local_20;
+    if (_e485) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_22 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_22 = true;
+        }
+        bool _e496 = local_22;
+        local_21 = _e496;
+    } else {
+        local_21 = false;
+    }
+    bool _e498 = local_21;
+    if (_e498) {
+        local_23 = (tV_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_23 = false;
+    }
+    bool _e504 = local_23;
+    if (_e504) {
+        const uint _e505 = rsmss_fetch_d_cb_h(site_10);
+        if ((_e505 == RSMSS_H_NONE)) {
+            const RsmssResult rsmssresult_37 = ConstructRsmssResult(clamp((1.0 - dV), 0.0, 1.0), 8u);
+            return rsmssresult_37;
+        }
+        if ((_e505 == RSMSS_H_RIGHT)) {
+            float w = ((V_3 == RSMSS_V_TOP) ? py : (1.0 - py));
+            const RsmssResult rsmssresult_38 = ConstructRsmssResult(clamp(min(w, ((2.0 - px) - dV)), 0.0, 1.0), 8u);
+            return rsmssresult_38;
+        }
+        if ((_e505 == RSMSS_H_LEFT)) {
+            float w_1 = ((V_3 == RSMSS_V_TOP) ? py : (1.0 - py));
+            const RsmssResult rsmssresult_39 = ConstructRsmssResult(clamp(min(w_1, ((1.0 + px) - dV)), 0.0, 1.0), 8u);
+            return rsmssresult_39;
+        }
+        const RsmssResult rsmssresult_40 = ConstructRsmssResult(1.0, 8u);
+        return rsmssresult_40;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_24 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_24 = false;
+    }
+    bool _e557 = local_24;
+    if (_e557) {
+        local_25 = (V_3 == RSMSS_V_NONE);
+    } else {
+        local_25 = false;
+    }
+    bool _e563 = local_25;
+    if (_e563) {
+        local_26 = (tV_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_26 = false;
+    }
+    bool _e569 = local_26;
+    if (_e569) {
+        const uint _e570 = rsmss_fetch_d_cb_top(site_10);
+        if ((_e570 == RSMSS_H_NONE)) {
+            const RsmssResult rsmssresult_41 = ConstructRsmssResult(clamp((1.0 - dV), 0.0, 1.0), 9u);
+            return rsmssresult_41;
+        }
+        const uint _e580 = rsmss_fetch_d_cb_bottom(site_10);
+        if ((_e580 == RSMSS_H_NONE)) {
+            const RsmssResult rsmssresult_42 = ConstructRsmssResult(clamp((1.0 - dV), 0.0, 1.0), 9u);
+            return rsmssresult_42;
+        }
+        if (!((_e570 == RSMSS_H_LEFT))) {
+            local_27 = (_e580 == RSMSS_H_LEFT);
+        } else {
+            local_27 = true;
+        }
+        bool _e598 = local_27;
+        if (_e598) {
+            const RsmssResult rsmssresult_43 = ConstructRsmssResult(clamp(((1.0 + px) - dV), 0.0, 1.0), 9u);
+            return rsmssresult_43;
+        }
+        if (!((_e570 == RSMSS_H_RIGHT))) {
+            local_28 = (_e580 == RSMSS_H_RIGHT);
+        } else {
+            local_28 = true;
+        }
+        bool _e615 = local_28;
+        if (_e615) {
+            const RsmssResult rsmssresult_44 = ConstructRsmssResult(clamp(((2.0 - px) - dV), 0.0, 1.0), 9u);
+            return rsmssresult_44;
+        }
+        const RsmssResult rsmssresult_45 = ConstructRsmssResult(1.0, 9u);
+        return rsmssresult_45;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_29 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_29 = false;
+    }
+    bool _e634 = local_29;
+    if (_e634) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_31 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_31 = true;
+        }
+        bool _e645 = local_31;
+        local_30 = _e645;
+    } else {
+        local_30 = false;
+    }
+    bool _e647 = local_30;
+    if (_e647) {
+        local_32 = (tH_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_32 = false;
+    }
+    bool _e653 = local_32;
+    if (_e653) {
+        const uint _e654 = rsmss_fetch_d_cb_v(site_10);
+        if ((_e654 == RSMSS_V_NONE)) {
+            const RsmssResult rsmssresult_46 = ConstructRsmssResult(clamp((1.0 - dH), 0.0, 1.0), 10u);
+            return rsmssresult_46;
+        }
+        if ((_e654 == RSMSS_V_TOP)) {
+            float u = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
+            const RsmssResult rsmssresult_47 = ConstructRsmssResult(clamp(min(u, ((1.0 + py) - dH)), 0.0, 1.0), 10u);
+            return rsmssresult_47;
+        }
+        if ((_e654 == RSMSS_V_BOTTOM)) {
+            float u_1 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
+            const RsmssResult rsmssresult_48 = ConstructRsmssResult(clamp(min(u_1, ((2.0 - py) - dH)), 0.0, 1.0), 10u);
+            return rsmssresult_48;
+        }
+        const RsmssResult rsmssresult_49 = ConstructRsmssResult(1.0, 10u);
+        return rsmssresult_49;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_33 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_33 = false;
+    }
+    bool _e706 = local_33;
+    if (_e706) {
+        local_34 = (H_3 == RSMSS_H_NONE);
+    } else {
+        local_34 = false;
+    }
+    bool _e712 = local_34;
+    if (_e712) {
+        local_35 = (tH_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_35 = false;
+    }
+    bool _e718 = local_35;
+    if (_e718) {
+        const uint _e719 = rsmss_fetch_d_cb_left(site_10);
+        if ((_e719 == RSMSS_V_NONE)) {
+            const RsmssResult rsmssresult_50 = ConstructRsmssResult(clamp((1.0 - dH), 0.0, 1.0), 11u);
+            return rsmssresult_50;
+        }
+        const uint _e729 = rsmss_fetch_d_cb_right(site_10);
+        if ((_e729 == RSMSS_V_NONE)) {
+            const RsmssResult rsmssresult_51 = ConstructRsmssResult(clamp((1.0 - dH), 0.0, 1.0), 11u);
+            return rsmssresult_51;
+        }
+        if (!((_e719 == RSMSS_V_TOP))) {
+            local_36 = (_e729 == RSMSS_V_TOP);
+        } else {
+            local_36 = true;
+        }
+        bool _e747 = local_36;
+        if (_e747) {
+            const RsmssResult rsmssresult_52 = ConstructRsmssResult(clamp(((1.0 + py) - dH), 0.0, 1.0), 11u);
+            return rsmssresult_52;
+        }
+        if (!((_e719 == RSMSS_V_BOTTOM))) {
+            local_37 = (_e729 == RSMSS_V_BOTTOM);
+        } else {
+            local_37 = true;
+        }
+        bool _e764 = local_37;
+        if (_e764) {
+            const RsmssResult rsmssresult_53 = ConstructRsmssResult(clamp(((2.0 - py) - dH), 0.0, 1.0), 11u);
+            return rsmssresult_53;
+        }
+        const RsmssResult rsmssresult_54 = ConstructRsmssResult(1.0, 11u);
+        return rsmssresult_54;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_38 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_38 = false;
+    }
+    bool _e783 = local_38;
+    if (_e783) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_40 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_40 = true;
+        }
+        bool _e794 = local_40;
+        local_39 = _e794;
+    } else {
+        local_39 = false;
+    }
+    bool _e796 = local_39;
+    if (_e796) {
+        if ((V_3 == RSMSS_V_TOP)) {
+            const uint _e799 = rsmss_fetch_n_bottom(site_10);
+            if ((_e799 == RSMSS_H_NONE)) {
+                const RsmssResult rsmssresult_55 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
+                return rsmssresult_55;
+            }
+            if ((_e799 == RSMSS_H_RIGHT)) {
+                float B_h = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0));
+                const RsmssResult rsmssresult_56 = ConstructRsmssResult(clamp(max((1.0 - py), B_h), 0.0, 1.0), 12u);
+                return rsmssresult_56;
+            }
+            if ((_e799 == RSMSS_H_LEFT)) {
+                float A_h = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px));
+                const RsmssResult rsmssresult_57 = ConstructRsmssResult(clamp(max((1.0 - py), A_h), 0.0, 1.0), 12u);
+                return rsmssresult_57;
+            }
+            const uint _e839 = rsmss_fetch_d_cb_h(site_10);
+            if ((_e839 == RSMSS_H_NONE)) {
+                const RsmssResult rsmssresult_58 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
+                return rsmssresult_58;
+            }
+            if ((_e839 == RSMSS_H_LEFT)) {
+                const RsmssResult rsmssresult_59 = ConstructRsmssResult(clamp(max((1.0 - py), (1.0 - px)), 0.0, 1.0), 12u);
+                return rsmssresult_59;
+            }
+            if ((_e839 == RSMSS_H_RIGHT)) {
+                const RsmssResult rsmssresult_60 = ConstructRsmssResult(clamp(max((1.0 - py), px), 0.0, 1.0), 12u);
+                return rsmssresult_60;
+            }
+            const RsmssResult rsmssresult_61 = ConstructRsmssResult(0.0, 12u);
+            return rsmssresult_61;
+        }
+        const uint _e872 = rsmss_fetch_n_top(site_10);
+        if ((_e872 == RSMSS_H_NONE)) {
+            const RsmssResult rsmssresult_62 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
+            return rsmssresult_62;
+        }
+        if ((_e872 == RSMSS_H_RIGHT)) {
+            float B_h_1 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0));
+            const RsmssResult rsmssresult_63 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), B_h_1), 0.0, 1.0), 12u);
+            return rsmssresult_63;
+        }
+        if ((_e872 == RSMSS_H_LEFT)) {
+            float A_h_1 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px));
+            const RsmssResult rsmssresult_64 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), A_h_1), 0.0, 1.0), 12u);
+            return rsmssresult_64;
+        }
+        const uint _e916 = rsmss_fetch_d_cb_h(site_10);
+        if ((_e916 == RSMSS_H_NONE)) {
+            const RsmssResult rsmssresult_65 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
+            return rsmssresult_65;
+        }
+        if ((_e916 == RSMSS_H_LEFT)) {
+            const RsmssResult rsmssresult_66 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), (1.0 - px)), 0.0, 1.0), 12u);
+            return rsmssresult_66;
+        }
+        if ((_e916 == RSMSS_H_RIGHT)) {
+            const RsmssResult rsmssresult_67 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), px), 0.0, 1.0), 12u);
+            return rsmssresult_67;
+        }
+        const RsmssResult rsmssresult_68 = ConstructRsmssResult(0.0, 12u);
+        return rsmssresult_68;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_41 = (H_3 == RSMSS_H_BOTH);
+    } else {
+        local_41 = false;
+    }
+    bool _e960 = local_41;
+    if (_e960) {
+        local_42 = (V_3 == RSMSS_V_NONE);
+    } else {
+        local_42 = false;
+    }
+    bool _e966 = local_42;
+    if (_e966) {
+        const uint _e967 = rsmss_fetch_d_cb_h(site_10);
+        if ((_e967 == RSMSS_H_NONE)) {
+            const RsmssResult rsmssresult_69 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 13u);
+            return rsmssresult_69;
+        }
+        if ((_e967 == RSMSS_H_LEFT)) {
+            float A_h_2 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px));
+            const RsmssResult rsmssresult_70 = ConstructRsmssResult(clamp(A_h_2, 0.0, 1.0), 13u);
+            return rsmssresult_70;
+        }
+        if ((_e967 == RSMSS_H_RIGHT)) {
+            float B_h_2 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0));
+            const RsmssResult rsmssresult_71 = ConstructRsmssResult(clamp(B_h_2, 0.0, 1.0), 13u);
+            return rsmssresult_71;
+        }
+        const RsmssResult rsmssresult_72 = ConstructRsmssResult(0.0, 13u);
+        return rsmssresult_72;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_43 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_43 = false;
+    }
+    bool _e1011 = local_43;
+    if (_e1011) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_45 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_45 = true;
+        }
+        bool _e1022 = local_45;
+        local_44 = _e1022;
+    } else {
+        local_44 = false;
+    }
+    bool _e1024 = local_44;
+    if (_e1024) {
+        if ((H_3 == RSMSS_H_LEFT)) {
+            const uint _e1027 = rsmss_fetch_n_right(site_10);
+            if ((_e1027 == RSMSS_V_NONE)) {
+                const RsmssResult rsmssresult_73 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
+                return rsmssresult_73;
+            }
+            if ((_e1027 == RSMSS_V_BOTTOM)) {
+                float B_v = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? py : ((dH + py) - 1.0));
+                const RsmssResult rsmssresult_74 = ConstructRsmssResult(clamp(max((1.0 - px), B_v), 0.0, 1.0), 14u);
+                return rsmssresult_74;
+            }
+            if ((_e1027 == RSMSS_V_TOP)) {
+                float A_v = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - py) : (dH - py));
+                const RsmssResult rsmssresult_75 = ConstructRsmssResult(clamp(max((1.0 - px), A_v), 0.0, 1.0), 14u);
+                return rsmssresult_75;
+            }
+            const uint _e1067 = rsmss_fetch_d_cb_v(site_10);
+            if ((_e1067 == RSMSS_V_NONE)) {
+                const RsmssResult rsmssresult_76 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
+                return rsmssresult_76;
+            }
+            if ((_e1067 == RSMSS_V_TOP)) {
+                const RsmssResult rsmssresult_77 = ConstructRsmssResult(clamp(max((1.0 - px), (1.0 - py)), 0.0, 1.0), 14u);
+                return rsmssresult_77;
+            }
+            if ((_e1067 == RSMSS_V_BOTTOM)) {
+                const RsmssResult rsmssresult_78 = ConstructRsmssResult(clamp(max((1.0 - px), py), 0.0, 1.0), 14u);
+                return rsmssresult_78;
+            }
+            const RsmssResult rsmssresult_79 = ConstructRsmssResult(0.0, 14u);
+            return rsmssresult_79;
+        }
+        const uint _e1100 = rsmss_fetch_n_left(site_10);
+        if ((_e1100 == RSMSS_V_NONE)) {
+            const RsmssResult rsmssresult_80 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
+            return rsmssresult_80;
+        }
+        if ((_e1100 == RSMSS_V_BOTTOM)) {
+            float B_v_1 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? py : ((dH + py) - 1.0));
+            const RsmssResult rsmssresult_81 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), B_v_1), 0.0, 1.0), 14u);
+            return rsmssresult_81;
+        }
+        if ((_e1100 == RSMSS_V_TOP)) {
+            float A_v_1 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - py) : (dH - py));
+            const RsmssResult rsmssresult_82 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), A_v_1), 0.0, 1.0), 14u);
+            return rsmssresult_82;
+        }
+        const uint _e1144 = rsmss_fetch_d_cb_v(site_10);
+        if ((_e1144 == RSMSS_V_NONE)) {
+            const RsmssResult rsmssresult_83 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
+            return rsmssresult_83;
+        }
+        if ((_e1144 == RSMSS_V_TOP)) {
+            const RsmssResult rsmssresult_84 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), (1.0 - py)), 0.0, 1.0), 14u);
+            return rsmssresult_84;
+        }
+        if ((_e1144 == RSMSS_V_BOTTOM)) {
+            const RsmssResult rsmssresult_85 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), py), 0.0, 1.0), 14u);
+            return rsmssresult_85;
+        }
+        const RsmssResult rsmssresult_86 = ConstructRsmssResult(0.0, 14u);
+        return rsmssresult_86;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_46 = (V_3 == RSMSS_V_BOTH);
+    } else {
+        local_46 = false;
+    }
+    bool _e1188 = local_46;
+    if (_e1188) {
+        local_47 = (H_3 == RSMSS_H_NONE);
+    } else {
+        local_47 = false;
+    }
+    bool _e1194 = local_47;
+    if (_e1194) {
+        const uint _e1195 = rsmss_fetch_d_cb_v(site_10);
+        if ((_e1195 == RSMSS_V_NONE)) {
+            const RsmssResult rsmssresult_87 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 15u);
+            return rsmssresult_87;
+        }
+        if ((_e1195 == RSMSS_V_TOP)) {
+            float A_v_2 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - py) : (dH - py));
+            const RsmssResult rsmssresult_88 = ConstructRsmssResult(clamp(A_v_2, 0.0, 1.0), 15u);
+            return rsmssresult_88;
+        }
+        if ((_e1195 == RSMSS_V_BOTTOM)) {
+            float B_v_2 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? py : ((dH + py) - 1.0));
+            const RsmssResult rsmssresult_89 = ConstructRsmssResult(clamp(B_v_2, 0.0, 1.0), 15u);
+            return rsmssresult_89;
+        }
+        const RsmssResult rsmssresult_90 = ConstructRsmssResult(0.0, 15u);
+        return rsmssresult_90;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_49 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_49 = true;
+        }
+        bool _e1244 = local_49;
+        local_48 = _e1244;
+    } else {
+        local_48 = false;
+    }
+    bool _e1246 = local_48;
+    if (_e1246) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_51 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_51 = true;
+        }
+        bool _e1257 = local_51;
+        local_50 = _e1257;
+    } else {
+        local_50 = false;
+    }
+    bool _e1259 = local_50;
+    if (_e1259) {
+        local_52 = domH_3;
+    } else {
+        local_52 = false;
+    }
+    bool _e1263 = local_52;
+    if (_e1263) {
+        local_53 = !(domV_3);
+    } else {
+        local_53 = false;
+    }
+    bool _e1268 = local_53;
+    if (_e1268) {
+        float F23_ = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
+        const RsmssResult rsmssresult_91 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? px : ((H_3 == RSMSS_H_RIGHT) ? (1.0 - px) : 1.0)) : F23_), 0.0, 1.0), 16u);
+        return rsmssresult_91;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_55 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_55 = true;
+        }
+        bool _e1307 = local_55;
+        local_54 = _e1307;
+    } else {
+        local_54 = false;
+    }
+    bool _e1309 = local_54;
+    if (_e1309) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_57 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_57 = true;
+        }
+        bool _e1320 = local_57;
+        local_56 = _e1320;
+    } else {
+        local_56 = false;
+    }
+    bool _e1322 = local_56;
+    if (_e1322) {
+        local_58 = domV_3;
+    } else {
+        local_58 = false;
+    }
+    bool _e1326 = local_58;
+    if (_e1326) {
+        local_59 = !(domH_3);
+    } else {
+        local_59 = false;
+    }
+    bool _e1331 = local_59;
+    if (_e1331) {
+        float F22_ = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
+        const RsmssResult rsmssresult_92 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : ((V_3 == RSMSS_V_TOP) ? py : 1.0)) : F22_), 0.0, 1.0), 17u);
+        return rsmssresult_92;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_61 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_61 = true;
+        }
+        bool _e1370 = local_61;
+        local_60 = _e1370;
+    } else {
+        local_60 = false;
+    }
+    bool _e1372 = local_60;
+    if (_e1372) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_63 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_63 = true;
+        }
+        bool _e1383 = local_63;
+        local_62 = _e1383;
+    } else {
+        local_62 = false;
+    }
+    bool _e1385 = local_62;
+    if (_e1385) {
+        local_64 = !(domH_3);
+    } else {
+        local_64 = false;
+    }
+    bool _e1390 = local_64;
+    if (_e1390) {
+        local_65 = !(domV_3);
+    } else {
+        local_65 = false;
+    }
+    bool _e1395 = local_65;
+    if (_e1395) {
+        float F22_1 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
+        const RsmssResult rsmssresult_93 = ConstructRsmssResult(clamp(F22_1, 0.0, 1.0), 18u);
+        return rsmssresult_93;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_67 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_67 = true;
+        }
+        bool _e1422 = local_67;
+        local_66 = _e1422;
+    } else {
+        local_66 = false;
+    }
+    bool _e1424 = local_66;
+    if (_e1424) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_69 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_69 = true;
+        }
+        bool _e1435 = local_69;
+        local_68 = _e1435;
+    } else {
+        local_68 = false;
+    }
+    bool _e1437 = local_68;
+    if (_e1437) {
+        local_70 = domH_3;
+    } else {
+        local_70 = false;
+    }
+    bool _e1441 = local_70;
+    if (_e1441) {
+        local_71 = domV_3;
+    } else {
+        local_71 = false;
+    }
+    bool _e1445 = local_71;
+    if (_e1445) {
+        float u_2 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
+        float F23_1 = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
+        float F20_ = ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py);
+        float F22_2 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
+        const RsmssResult rsmssresult_94 = ConstructRsmssResult(clamp(min(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u_2 : F23_1), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_ : F22_2)), 0.0, 1.0), 19u);
+        return rsmssresult_94;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_72 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_72 = false;
+    }
+    bool _e1494 = local_72;
+    if (_e1494) {
+        local_73 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_73 = false;
+    }
+    bool _e1501 = local_73;
+    if (_e1501) {
+        local_74 = (tH_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_74 = false;
+    }
+    bool _e1507 = local_74;
+    if (_e1507) {
+        local_75 = (tV_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_75 = false;
+    }
+    bool _e1513 = local_75;
+    if (_e1513) {
+        if ((V_3 == RSMSS_V_BOTTOM)) {
+            const RsmssResult rsmssresult_95 = ConstructRsmssResult(clamp((1.0 - py), 0.0, 1.0), 20u);
+            return rsmssresult_95;
+        }
+        if ((V_3 == RSMSS_V_TOP)) {
+            const RsmssResult rsmssresult_96 = ConstructRsmssResult(clamp(py, 0.0, 1.0), 20u);
+            return rsmssresult_96;
+        }
+        const RsmssResult rsmssresult_97 = ConstructRsmssResult(1.0, 20u);
+        return rsmssresult_97;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_76 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_76 = false;
+    }
+    bool _e1541 = local_76;
+    if (_e1541) {
+        local_77 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_77 = false;
+    }
+    bool _e1548 = local_77;
+    if (_e1548) {
+        local_78 = (tH_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_78 = false;
+    }
+    bool _e1554 = local_78;
+    if (_e1554) {
+        local_79 = (tV_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_79 = false;
+    }
+    bool _e1560 = local_79;
+    if (_e1560) {
+        if ((H_3 == RSMSS_H_LEFT)) {
+            const RsmssResult rsmssresult_98 = ConstructRsmssResult(clamp(px, 0.0, 1.0), 21u);
+            return rsmssresult_98;
+        }
+        if ((H_3 == RSMSS_H_RIGHT)) {
+            const RsmssResult rsmssresult_99 = ConstructRsmssResult(clamp((1.0 - px), 0.0, 1.0), 21u);
+            return rsmssresult_99;
+        }
+        const RsmssResult rsmssresult_100 = ConstructRsmssResult(1.0, 21u);
+        return rsmssresult_100;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_80 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_80 = false;
+    }
+    bool _e1588 = local_80;
+    if (_e1588) {
+        local_81 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_81 = false;
+    }
+    bool _e1595 = local_81;
+    if (_e1595) {
+        local_82 = (H_3 == RSMSS_H_NONE);
+    } else {
+        local_82 = false;
+    }
+    bool _e1601 = local_82;
+    if (_e1601) {
+        local_83 = !((V_3 == RSMSS_V_NONE));
+    } else {
+        local_83 = false;
+    }
+    bool _e1608 = local_83;
+    if (_e1608) {
+        float F22_3 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
+        const RsmssResult rsmssresult_101 = ConstructRsmssResult(clamp(F22_3, 0.0, 1.0), 22u);
+        return rsmssresult_101;
+    }
+    if ((b_3 == RSMSS_B_ENTERING)) {
+        local_84 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_84 = false;
+    }
+    bool _e1631 = local_84;
+    if (_e1631) {
+        local_85 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_85 = false;
+    }
+    bool _e1638 = local_85;
+    if (_e1638) {
+        local_86 = !((H_3 == RSMSS_H_NONE));
+    } else {
+        local_86 = false;
+    }
+    bool _e1645 = local_86;
+    if (_e1645) {
+        local_87 = (V_3 == RSMSS_V_NONE);
+    } else {
+        local_87 = false;
+    }
+    bool _e1651 = local_87;
+    if (_e1651) {
+        float F23_2 = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
+        const RsmssResult rsmssresult_102 = ConstructRsmssResult(clamp(F23_2, 0.0, 1.0), 23u);
+        return rsmssresult_102;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_89 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_89 = true;
+        }
+        bool _e1678 = local_89;
+        local_88 = _e1678;
+    } else {
+        local_88 = false;
+    }
+    bool _e1680 = local_88;
+    if (_e1680) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_91 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_91 = true;
+        }
+        bool _e1691 = local_91;
+        local_90 = _e1691;
+    } else {
+        local_90 = false;
+    }
+    bool _e1693 = local_90;
+    if (_e1693) {
+        local_92 = domH_3;
+    } else {
+        local_92 = false;
+    }
+    bool _e1697 = local_92;
+    if (_e1697) {
+        local_93 = !(domV_3);
+    } else {
+        local_93 = false;
+    }
+    bool _e1702 = local_93;
+    if (_e1702) {
+        float F31_ = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
+        const RsmssResult rsmssresult_103 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : ((H_3 == RSMSS_H_RIGHT) ? px : 0.0)) : F31_), 0.0, 1.0), 24u);
+        return rsmssresult_103;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_95 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_95 = true;
+        }
+        bool _e1739 = local_95;
+        local_94 = _e1739;
+    } else {
+        local_94 = false;
+    }
+    bool _e1741 = local_94;
+    if (_e1741) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_97 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_97 = true;
+        }
+        bool _e1752 = local_97;
+        local_96 = _e1752;
+    } else {
+        local_96 = false;
+    }
+    bool _e1754 = local_96;
+    if (_e1754) {
+        local_98 = domV_3;
+    } else {
+        local_98 = false;
+    }
+    bool _e1758 = local_98;
+    if (_e1758) {
+        local_99 = !(domH_3);
+    } else {
+        local_99 = false;
+    }
+    bool _e1763 = local_99;
+    if (_e1763) {
+        float F30_ = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
+        const RsmssResult rsmssresult_104 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? py : ((V_3 == RSMSS_V_TOP) ? (1.0 - py) : 0.0)) : F30_), 0.0, 1.0), 25u);
+        return rsmssresult_104;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_101 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_101 = true;
+        }
+        bool _e1800 = local_101;
+        local_100 = _e1800;
+    } else {
+        local_100 = false;
+    }
+    bool _e1802 = local_100;
+    if (_e1802) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_103 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_103 = true;
+        }
+        bool _e1813 = local_103;
+        local_102 = _e1813;
+    } else {
+        local_102 = false;
+    }
+    bool _e1815 = local_102;
+    if (_e1815) {
+        local_104 = !(domH_3);
+    } else {
+        local_104 = false;
+    }
+    bool _e1820 = local_104;
+    if (_e1820) {
+        local_105 = !(domV_3);
+    } else {
+        local_105 = false;
+    }
+    bool _e1825 = local_105;
+    if (_e1825) {
+        float F30_1 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
+        const RsmssResult rsmssresult_105 = ConstructRsmssResult(clamp(F30_1, 0.0, 1.0), 26u);
+        return rsmssresult_105;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_107 = (H_3 == RSMSS_H_LEFT);
+        } else {
+            local_107 = true;
+        }
+        bool _e1850 = local_107;
+        local_106 = _e1850;
+    } else {
+        local_106 = false;
+    }
+    bool _e1852 = local_106;
+    if (_e1852) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_109 = (V_3 == RSMSS_V_BOTTOM);
+        } else {
+            local_109 = true;
+        }
+        bool _e1863 = local_109;
+        local_108 = _e1863;
+    } else {
+        local_108 = false;
+    }
+    bool _e1865 = local_108;
+    if (_e1865) {
+        local_110 = domH_3;
+    } else {
+        local_110 = false;
+    }
+    bool _e1869 = local_110;
+    if (_e1869) {
+        local_111 = domV_3;
+    } else {
+        local_111 = false;
+    }
+    bool _e1873 = local_111;
+    if (_e1873) {
+        float F29_ = ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px);
+        float F31_1 = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
+        float F28_ = ((V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py));
+        float F30_2 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
+        const RsmssResult rsmssresult_106 = ConstructRsmssResult(clamp(max(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_1), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_2)), 0.0, 1.0), 27u);
+        return rsmssresult_106;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_112 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_112 = false;
+    }
+    bool _e1918 = local_112;
+    if (_e1918) {
+        local_113 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_113 = false;
+    }
+    bool _e1925 = local_113;
+    if (_e1925) {
+        local_114 = (tH_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_114 = false;
+    }
+    bool _e1931 = local_114;
+    if (_e1931) {
+        local_115 = (tV_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_115 = false;
+    }
+    bool _e1937 = local_115;
+    if (_e1937) {
+        if ((V_3 == RSMSS_V_BOTTOM)) {
+            const RsmssResult rsmssresult_107 = ConstructRsmssResult(clamp(py, 0.0, 1.0), 28u);
+            return rsmssresult_107;
+        }
+        if ((V_3 == RSMSS_V_TOP)) {
+            const RsmssResult rsmssresult_108 = ConstructRsmssResult(clamp((1.0 - py), 0.0, 1.0), 28u);
+            return rsmssresult_108;
+        }
+        const RsmssResult rsmssresult_109 = ConstructRsmssResult(0.0, 28u);
+        return rsmssresult_109;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_116 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_116 = false;
+    }
+    bool _e1965 = local_116;
+    if (_e1965) {
+        local_117 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_117 = false;
+    }
+    bool _e1972 = local_117;
+    if (_e1972) {
+        local_118 = (tH_3 == RSMSS_TH_POSITIVE_NEGATIVE);
+    } else {
+        local_118 = false;
+    }
+    bool _e1978 = local_118;
+    if (_e1978) {
+        local_119 = (tV_3 == RSMSS_TH_DUAL_POSITIVE);
+    } else {
+        local_119 = false;
+    }
+    bool _e1984 = local_119;
+    if (_e1984) {
+        if ((H_3 == RSMSS_H_LEFT)) {
+            const RsmssResult rsmssresult_110 = ConstructRsmssResult(clamp((1.0 - px), 0.0, 1.0), 29u);
+            return rsmssresult_110;
+        }
+        if ((H_3 == RSMSS_H_RIGHT)) {
+            const RsmssResult rsmssresult_111 = ConstructRsmssResult(clamp(px, 0.0, 1.0), 29u);
+            return rsmssresult_111;
+        }
+        const RsmssResult rsmssresult_112 = ConstructRsmssResult(0.0, 29u);
+        return rsmssresult_112;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_120 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_120 = false;
+    }
+    bool _e2012 = local_120;
+    if (_e2012) {
+        local_121 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_121 = false;
+    }
+    bool _e2019 = local_121;
+    if (_e2019) {
+        local_122 = (H_3 == RSMSS_H_NONE);
+    } else {
+        local_122 = false;
+    }
+    bool _e2025 = local_122;
+    if (_e2025) {
+        local_123 = !((V_3 == RSMSS_V_NONE));
+    } else {
+        local_123 = false;
+    }
+    bool _e2032 = local_123;
+    if (_e2032) {
+        float F30_3 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
+        const RsmssResult rsmssresult_113 = ConstructRsmssResult(clamp(F30_3, 0.0, 1.0), 30u);
+        return rsmssresult_113;
+    }
+    if ((b_3 == RSMSS_B_EXITING)) {
+        local_124 = !((H_3 == RSMSS_H_BOTH));
+    } else {
+        local_124 = false;
+    }
+    bool _e2053 = local_124;
+    if (_e2053) {
+        local_125 = !((V_3 == RSMSS_V_BOTH));
+    } else {
+        local_125 = false;
+    }
+    bool _e2060 = local_125;
+    if (_e2060) {
+        local_126 = !((H_3 == RSMSS_H_NONE));
+    } else {
+        local_126 = false;
+    }
+    bool _e2067 = local_126;
+    if (_e2067) {
+        local_127 = (V_3 == RSMSS_V_NONE);
+    } else {
+        local_127 = false;
+    }
+    bool _e2073 = local_127;
+    if (_e2073) {
+        float F31_2 = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
+        const RsmssResult rsmssresult_114 = ConstructRsmssResult(clamp(F31_2, 0.0, 1.0), 31u);
+        return rsmssresult_114;
+    }
+    const RsmssResult rsmssresult_115 = ConstructRsmssResult(clamp(((b_3 == RSMSS_B_ENTERING) ? 1.0 : 0.0), 0.0, 1.0), RSMSS_DEFAULT);
+    return rsmssresult_115;
+}
+
+float rsmss_key(uint key_1, float dH_1, float dV_1, float px_1, float py_1, RsmssSite site_11)
+{
+    const RsmssResult _e6 = rsmss_key_case(key_1, dH_1, dV_1, px_1, py_1, site_11);
+    return _e6.value;
+}
+
+RsmssResult rsmss_case(float H_1, float V_1, float b_1, float tH_1, float tV_1, float dH_2, float dV_2, float px_2, float py_2, bool domH_1, bool domV_1, RsmssSite site_12)
+{
+    const uint _e12 = rsmss_pack(H_1, V_1, b_1, tH_1, tV_1, domH_1, domV_1);
+    const RsmssResult _e13 = rsmss_key_case(_e12, dH_2, dV_2, px_2, py_2, site_12);
+    const RsmssResult rsmssresult_116 = _e13;
+    return rsmssresult_116;
+}
+
+float rsmss(float H_2, float V_2, float b_2, float tH_2, float tV_2, float dH_3, float dV_3, float px_3, float py_3, bool domH_2, bool domV_2, RsmssSite site_13)
+{
+    const RsmssResult _e12 = rsmss_case(H_2, V_2, b_2, tH_2, tV_2, dH_3, dV_3, px_3, py_3, domH_2, domV_2, site_13);
+    return _e12.value;
+}
+
+RsmssSite ConstructRsmssSite(uint arg0) {
+    RsmssSite ret = (RsmssSite)0;
+    ret.row = arg0;
+    return ret;
+}
+
+[numthreads(64, 1, 1)]
+void rsmss_columns(uint3 id : SV_DispatchThreadID)
+{
+    uint row = id.x;
+    uint _e4 = asuint(umbrage_plain.Load(0));
+    if ((row >= _e4)) {
+        return;
+    }
+    uint at = (1u + (row * 5u));
+    uint _e14 = asuint(umbrage_plain.Load((at + 0u)*4));
+    uint _e19 = asuint(umbrage_plain.Load((at + 1u)*4));
+    uint _e25 = asuint(umbrage_plain.Load((at + 2u)*4));
+    uint _e31 = asuint(umbrage_plain.Load((at + 3u)*4));
+    uint _e37 = asuint(umbrage_plain.Load((at + 4u)*4));
+    const RsmssResult _e40 = rsmss_key_case(_e14, asfloat(_e19), asfloat(_e25), asfloat(_e31), asfloat(_e37), ConstructRsmssSite(row));
+    umbrage_out.Store(((row * 4u) + 0u)*4, asuint(_e40.case_id));
+    umbrage_out.Store(((row * 4u) + 1u)*4, asuint(asuint(_e40.value)));
+    return;
+}
