@@ -256,8 +256,7 @@ impl Diagnostic {
             .with_labels_iter(labels)
             .with_notes(self.notes.clone());
         let file = SimpleFile::new(&source.name, &source.text);
-        let mut config = term::Config::default();
-        config.chars = term::Chars::ascii();
+        let config = term::Config { chars: term::Chars::ascii(), ..term::Config::default() };
         match writer {
             Writer::Plain(out) => {
                 let text = term::emit_into_string(&config, &file, &shown).map_err(|_| fmt::Error)?;

@@ -52,6 +52,8 @@ impl Comparison {
     }
 }
 
+// `f64::clamp` would pass NaN on and panics on reversed bounds.
+#[allow(clippy::manual_clamp)]
 impl Real for f64 {
     fn from_f64(value: f64) -> Self {
         value
@@ -125,6 +127,7 @@ impl Real for f64 {
     }
 }
 
+#[allow(clippy::manual_clamp)]
 impl Real for f32 {
     fn from_f64(value: f64) -> Self {
         value as f32

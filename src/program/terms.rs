@@ -657,7 +657,7 @@ impl Lowering<'_> {
         match name {
             "f32" => {
                 arity(1)?;
-                return self.to_number(&arguments[0], env);
+                return self.number_of(&arguments[0], env);
             }
             "select" => {
                 arity(3)?;
@@ -720,7 +720,7 @@ impl Lowering<'_> {
     }
 
     /// `f32(level)`, `f32(condition)`, `f32(number)`.
-    fn to_number(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+    fn number_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         match self.term(argument, env, Expected::Anything)? {
             Term::Number(number) => Ok(Term::Number(number)),
             Term::Level(set, term) => {
