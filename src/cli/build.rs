@@ -73,7 +73,8 @@ fn one(
     let program = Program::read(file)?;
     if let Some((other, _)) = done.iter().find(|(other, _)| other.name == program.name) {
         let message = format!("`{}` and this file both define the table `{}`", other.source.name, program.name);
-        let error = Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
+        let error =
+            Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
         return Err(Failure::new(program.source.clone(), error));
     }
     let findings = crate::analyse::findings(&program);

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::dialect::{Dialect, Prefix, Type, bare};
-use super::module::Names;
+use super::names::Names;
 use super::text::Text;
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node};

@@ -24,9 +24,7 @@ use super::normal::Normaliser;
 use super::{Leaf, Plan, Step, rounding};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::program::print::Printer;
-use crate::program::{
-    Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program, Value,
-};
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program, Value};
 
 /// What a proof found.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,10 +70,11 @@ impl Counterexample {
     /// The counterexample as a diagnostic at the row concerned.
     pub fn into_failure(self, program: &Program) -> Failure {
         let span = self.row.map_or(program.hit_policy_span, |row| program.rows[row].span);
-        let diagnostic = Diagnostic::error(codes::NOT_PROVED, format!("the plan `{}` is not equal to the table", self.shape))
-            .at(span, self.reason)
-            .help(format!("in the state {}", self.state.join(", ")))
-            .help("nothing was emitted; please report this: a plan must never differ");
+        let diagnostic =
+            Diagnostic::error(codes::NOT_PROVED, format!("the plan `{}` is not equal to the table", self.shape))
+                .at(span, self.reason)
+                .help(format!("in the state {}", self.state.join(", ")))
+                .help("nothing was emitted; please report this: a plan must never differ");
         Failure::new(program.source.clone(), diagnostic)
     }
 }
