@@ -5,7 +5,7 @@
 // Plan:   ladder
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
 
-#[allow(non_snake_case, clippy::all, dead_code, unused_variables)]
+#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]
 #[rustfmt::skip]
 pub mod rsmss {
 /// Produces fetched inputs on demand; levels as their index.

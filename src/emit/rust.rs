@@ -24,7 +24,7 @@ impl Dialect for Rust {
 
     fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String {
         let mut out = format!(
-            "#[allow(non_snake_case, clippy::all, dead_code, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
+            "#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
             prefix.lower
         );
         if !fetches.is_empty() {
