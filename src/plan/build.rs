@@ -22,6 +22,8 @@ const MAX_CONSTANT_KEYS: u32 = 12;
 const MAX_BUFFER_KEYS: u32 = 24;
 
 type Result<T> = std::result::Result<T, String>;
+/// Rows that may be taken, with what is left of their guards.
+type Guarded = Vec<(usize, CondId)>;
 type Next<'a, 'p> = &'a dyn Fn(&mut Builder<'p>, &Knowledge) -> Result<StepId>;
 
 struct Builder<'p> {
@@ -35,7 +37,7 @@ struct Builder<'p> {
 /// The ordered chain of guards, as written.
 pub(super) fn ladder(program: &Program) -> Result<Plan<'_>> {
     let mut builder = Builder::new(program);
-    let rows: Vec<(usize, CondId)> = program.rows.iter().enumerate().map(|(i, row)| (i, row.guard)).collect();
+    let rows: Guarded = program.rows.iter().enumerate().map(|(i, row)| (i, row.guard)).collect();
     let root = builder.rows(&rows, &Knowledge::none(program))?;
     Ok(builder.finish(Shape::Ladder, KeyLayout::new(program)?, Vec::new(), root))
 }
@@ -56,8 +58,9 @@ pub(super) fn switch(program: &Program, shape: Shape) -> Result<Plan<'_>> {
         ));
     }
     let mut builder = Builder::new(program);
-    let mut arms: Vec<(Vec<(usize, CondId)>, Vec<LevelSet>)> = Vec::new();
-    let mut arm_index: HashMap<Vec<(usize, CondId)>, u16> = HashMap::new();
+    // Each way to go, with the levels that occur on it.
+    let mut arms: Vec<(Guarded, Vec<LevelSet>)> = Vec::new();
+    let mut arm_index: HashMap<Guarded, u16> = HashMap::new();
     let mut lookup = Vec::with_capacity(program.states.count());
     let mut levels = vec![0; program.inputs.len()];
     for state in 0..program.states.count() {
@@ -121,7 +124,7 @@ impl<'p> Builder<'p> {
     }
 
     /// The rows that can be taken in a state, with what is left of their guards.
-    fn rows_of_state(&mut self, levels: &[u8]) -> Vec<(usize, CondId)> {
+    fn rows_of_state(&mut self, levels: &[u8]) -> Guarded {
         let program = self.program;
         let mut rows = Vec::new();
         let mut known = None;
