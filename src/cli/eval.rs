@@ -8,10 +8,17 @@ use super::answers::{Answers, Writer};
 use super::columns::{self, Columns, Points, Problems};
 use super::output::Sink;
 use super::report::Report;
-use super::{Outcome, PrecisionArgument, Result};
+use super::{Outcome, PrecisionArgument, Result, parse_shape};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
-use crate::eval::{Interpreter, NeedsFetch};
+#[cfg(feature = "gpu")]
+use crate::emit::harness::Entry;
+use crate::eval::{self, Batch, Interpreter, NeedsFetch};
 use crate::explain::explain;
+#[cfg(feature = "gpu")]
+use crate::gpu::{AdapterChoice, Gpu, Kernel, Language};
+use crate::plan::Shape;
+#[cfg(feature = "gpu")]
+use crate::plan::{Plan, Proved};
 use crate::program::{InputId, Program, Real, Value};
 use crate::show::Precision;
 
@@ -31,59 +38,77 @@ pub(super) struct Arguments {
     precision: PrecisionArgument,
     /// What computes the answers
     #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]
-    executor: Executor,
-    /// Code shape to run on the GPU; the interpreter follows the table itself
-    #[arg(long, value_name = "NAME")]
-    plan: Option<String>,
+    executor: ExecutorArgument,
+    /// Code shape to run on the GPU: ladder, switch, switch_buffer [default: ladder]
+    #[arg(long, value_name = "PLAN", value_parser = parse_shape)]
+    plan: Option<Shape>,
+    /// The adapter: any, software, hardware, or a part of its name
+    #[cfg(feature = "gpu")]
+    #[arg(long, value_name = "WHICH", default_value = "any")]
+    adapter: AdapterChoice,
 }
 
-/// What computes the answers.
+/// What computes the answers, as an argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Executor {
-    /// The reference interpreter
+enum ExecutorArgument {
+    /// The interpreter
     Interpreter,
     /// A shader made from the table
     Gpu,
 }
 
-/// How points are evaluated.
-struct Settings<'a> {
-    executor: Executor,
-    precision: Precision,
-    #[cfg_attr(not(feature = "gpu"), expect(dead_code, reason = "only the GPU runs plans"))]
-    plan: Option<&'a str>,
+/// What computes the answers.
+enum Executor<'a> {
+    Interpreter,
+    #[cfg(feature = "gpu")]
+    Gpu(Kernel<'a, 'a>),
+    /// Keeps the lifetime in builds without GPU support.
+    #[cfg(not(feature = "gpu"))]
+    #[expect(dead_code, reason = "is never made")]
+    Never(&'a std::convert::Infallible),
 }
 
 /// Reads, evaluates and writes, a chunk of rows at a time.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    #[cfg(not(feature = "gpu"))]
-    if arguments.executor == Executor::Gpu {
-        return Err(no_gpu().into());
-    }
     let program = Program::read(&arguments.table)?;
-    let settings = Settings {
-        executor: arguments.executor,
-        precision: arguments.precision.into(),
-        plan: arguments.plan.as_deref(),
+    #[cfg(feature = "gpu")]
+    let device = match arguments.executor {
+        ExecutorArgument::Gpu => Some(on_gpu(&program, arguments)?),
+        ExecutorArgument::Interpreter => None,
     };
-    if settings.executor == Executor::Interpreter
+    let executor = match arguments.executor {
+        #[cfg(feature = "gpu")]
+        ExecutorArgument::Gpu => match &device {
+            Some((gpu, proved)) => Executor::Gpu(Kernel::new(gpu, proved, Entry::Key, Language::Wgsl)?),
+            None => Executor::Interpreter,
+        },
+        #[cfg(not(feature = "gpu"))]
+        ExecutorArgument::Gpu => {
+            let error = Diagnostic::error(codes::NO_ADAPTER, "this build has no GPU support");
+            let help = "use `--executor interpreter`, or build umbrage with the feature `gpu`";
+            return Err(Failure::bare("", error.help(help)).into());
+        }
+        ExecutorArgument::Interpreter => Executor::Interpreter,
+    };
+    if arguments.executor == ExecutorArgument::Interpreter
         && let Some(plan) = &arguments.plan
     {
         let message = format!("the interpreter follows the table itself, so `--plan {plan}` changes nothing");
         let note = Diagnostic::note(codes::NOT_APPLICABLE, message).help("plans are run with `--executor gpu`");
         report.failure(&Failure::bare("", note));
     }
+    let precision = arguments.precision.into();
     let source = columns::read(&arguments.input)?;
     let fail = |diagnostics| Failure { source: source.clone(), diagnostics };
     let mut columns = Columns::open(&program, &source).map_err(fail)?;
     let json = columns::has_extension(&arguments.output, "json");
     let sink = Sink::create(&arguments.output)?;
-    let mut writer = Writer::start(&program, settings.precision, json, sink)?;
+    let mut writer = Writer::start(&program, precision, json, sink)?;
     let mut points = Points::new(program.inputs.len());
     let mut problems = Problems::default();
     while columns.next(&mut points, &mut problems) {
         // Rows that cannot be read have no answer; the others are judged nevertheless, to report all that is wrong.
-        let answers = evaluate(&program, &points, &settings)?;
+        let answers = evaluate(&program, &points, &executor, precision)?;
         for (index, input) in &answers.needed {
             problems.push(|| needs(&program, &source, points.point(*index), points.place(*index), *input));
         }
@@ -109,19 +134,35 @@ fn needs(program: &Program, source: &Source, point: &[Option<Value>], place: Spa
         .help(format!("give `{}` a value in this row: {}", input.name, input.doc))
 }
 
-/// Answers some points. This is the place where executors are plugged in.
-fn evaluate(program: &Program, points: &Points, settings: &Settings<'_>) -> Result<Answers> {
-    match (settings.executor, settings.precision) {
+/// Answers some points.
+fn evaluate(program: &Program, points: &Points, executor: &Executor<'_>, precision: Precision) -> Result<Answers> {
+    match (executor, precision) {
         (Executor::Interpreter, Precision::F32) => Ok(interpret::<f32>(program, points)),
         (Executor::Interpreter, Precision::F64) => Ok(interpret::<f64>(program, points)),
-        (Executor::Gpu, _) => Ok(on_gpu(program, points, settings)?),
+        #[cfg(feature = "gpu")]
+        (Executor::Gpu(kernel), _) => Ok(dispatch(program, points, kernel)?),
+        #[cfg(not(feature = "gpu"))]
+        (Executor::Never(_), _) => Ok(Answers::default()),
     }
 }
 
-/// Answers points one by one.
+/// The points as columns. They were checked when they were read.
+fn columns_of<T: Real>(program: &Program, points: &Points) -> eval::Columns<T> {
+    let rows = (0..points.len()).map(|index| points.point(index));
+    eval::Columns::from_rows(program, rows).unwrap_or_else(|_| eval::Columns::new(program))
+}
+
+/// Answers points with the interpreter: all at once, or, if some cannot be answered, one by one.
 fn interpret<T: Real>(program: &Program, points: &Points) -> Answers {
-    let mut interpreter = Interpreter::<T>::new(program);
     let mut answers = Answers::default();
+    if let Ok(results) = Batch::<T>::new(program).evaluate(&columns_of(program, points)) {
+        for point in 0..results.len() {
+            answers.rows.push(results.row(point));
+            answers.values.extend((0..results.components()).map(|c| results.values(c)[point].to_f64()));
+        }
+        return answers;
+    }
+    let mut interpreter = Interpreter::<T>::new(program);
     for index in 0..points.len() {
         match interpreter.evaluate(points.point(index)) {
             Ok(outcome) => {
@@ -134,21 +175,31 @@ fn interpret<T: Real>(program: &Program, points: &Points) -> Answers {
     answers
 }
 
-/// Answers points with a shader. PLUG IN HERE: the one place that `--executor gpu` reaches.
+/// Answers points on the GPU. What it fetched tells which points lack an input.
 #[cfg(feature = "gpu")]
-fn on_gpu(_program: &Program, _points: &Points, settings: &Settings<'_>) -> std::result::Result<Answers, Failure> {
-    let plan = settings.plan.unwrap_or("auto");
-    let message = format!("running the plan `{plan}` on the GPU is not implemented yet");
-    Err(Failure::bare("", Diagnostic::error(codes::NO_ADAPTER, message).help("use `--executor interpreter`")))
+fn dispatch(program: &Program, points: &Points, kernel: &Kernel<'_, '_>) -> std::result::Result<Answers, Failure> {
+    let columns = columns_of(program, points);
+    let outputs = kernel.run(&columns)?;
+    let mut answers = Answers::default();
+    for (point, row) in outputs.rows.iter().enumerate() {
+        match outputs.fetched[point].iter().find(|input| !columns.is_present(point, *input)) {
+            Some(input) => answers.needed.push((point, input)),
+            None => {
+                answers.rows.push(*row);
+                answers.values.extend(outputs.values.iter().map(|component| f64::from(component[point])));
+            }
+        }
+    }
+    Ok(answers)
 }
 
-#[cfg(not(feature = "gpu"))]
-fn on_gpu(_program: &Program, _points: &Points, _settings: &Settings<'_>) -> std::result::Result<Answers, Failure> {
-    Err(no_gpu())
-}
-
-#[cfg(not(feature = "gpu"))]
-fn no_gpu() -> Failure {
-    let error = Diagnostic::error(codes::NO_ADAPTER, "this build has no GPU support");
-    Failure::bare("", error.help("use `--executor interpreter`, or build umbrage with the feature `gpu`"))
+/// What the GPU needs to live as long as the evaluation.
+#[cfg(feature = "gpu")]
+fn on_gpu<'p>(program: &'p Program, arguments: &Arguments) -> std::result::Result<(Gpu, Proved<'p>), Failure> {
+    if matches!(arguments.precision, PrecisionArgument::F64) {
+        let error = Diagnostic::error(codes::NOT_APPLICABLE, "the GPU computes in f32 only");
+        return Err(Failure::bare("", error.help("leave out `--precision f64`, or use `--executor interpreter`")));
+    }
+    let shape = arguments.plan.unwrap_or(Shape::Ladder);
+    Ok((Gpu::open(&arguments.adapter)?, Plan::proved(program, shape)?))
 }

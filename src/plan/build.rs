@@ -169,9 +169,7 @@ impl<'p> Builder<'p> {
                     let (row, rest) = (*row, &rows[free + 1..]);
                     let yes = |me: &mut Self, known: &Knowledge| me.lines(row, 0, known);
                     // Later guards stay as written: only what was fetched is remembered.
-                    let no = |me: &mut Self, after: &Knowledge| {
-                        me.rows(rest, &known.with_fetched(after.fetched))
-                    };
+                    let no = |me: &mut Self, after: &Knowledge| me.rows(rest, &known.with_fetched(after.fetched));
                     me.branch(*guard, known, &yes, &no)?
                 }
             };
@@ -242,13 +240,7 @@ impl<'p> Builder<'p> {
     }
 
     /// Tests a condition, fetching what it needs in the order it needs it.
-    fn branch(
-        &mut self,
-        condition: CondId,
-        known: &Knowledge,
-        yes: Next<'_, 'p>,
-        no: Next<'_, 'p>,
-    ) -> Result<StepId> {
+    fn branch(&mut self, condition: CondId, known: &Knowledge, yes: Next<'_, 'p>, no: Next<'_, 'p>) -> Result<StepId> {
         self.descend(|me| me.branch_inner(condition, known, yes, no))
     }
 
@@ -282,12 +274,8 @@ impl<'p> Builder<'p> {
                 let (first, rest) = self.split(&parts, known, |pool, parts| pool.or(parts));
                 self.branch(first, known, yes, &|me, known| me.branch(rest, known, yes, no))
             }
-            Cond::If(c, a, b) => self.branch(
-                c,
-                known,
-                &|me, known| me.branch(a, known, yes, no),
-                &|me, known| me.branch(b, known, yes, no),
-            ),
+            Cond::If(c, a, b) => self
+                .branch(c, known, &|me, known| me.branch(a, known, yes, no), &|me, known| me.branch(b, known, yes, no)),
             Cond::Level(input, _) => self.fetch(input, known, condition, yes, no),
             Cond::Compare(_, a, b) => match self.lazy_choice(a, known).or_else(|| self.lazy_choice(b, known)) {
                 Some(choice) => {

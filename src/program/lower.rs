@@ -11,10 +11,6 @@ use crate::diag::{Code, Diagnostic, Failure, Span, Spanned, codes};
 use crate::table::expr::{Expr, ExprKind, UnaryOp};
 use crate::table::{self, Case, CaseBody, Image, Table, names};
 
-/// Expressions that may be lowered even if the table is short. The published
-/// techniques need some ten thousand.
-const MIN_BUDGET: usize = 1 << 20;
-
 /// Number of a level set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct SetId(pub(super) usize);
@@ -35,10 +31,8 @@ pub(super) struct Lowering<'t> {
     pub(super) named_index: HashMap<&'t str, usize>,
     pub(super) named_terms: Vec<Option<Term>>,
     pub(super) resolving: Vec<usize>,
-    /// How many expressions are being lowered inside each other.
-    pub(super) nesting: u32,
-    /// How many more expressions may be lowered.
-    pub(super) budget: usize,
+    /// How deep [`Lowering::term`] is nested in itself.
+    pub(super) depth: u32,
     input_index: HashMap<&'t str, InputId>,
     set_index: HashMap<&'t str, SetId>,
     case_index: HashMap<u32, usize>,
@@ -70,8 +64,7 @@ pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
         named_index: HashMap::new(),
         named_terms: vec![None; table.names.len()],
         resolving: Vec::new(),
-        nesting: 0,
-        budget: MIN_BUDGET.max(table.source.text.len().saturating_mul(16)),
+        depth: 0,
         input_index: HashMap::new(),
         set_index: HashMap::new(),
         case_index: HashMap::new(),
@@ -206,11 +199,11 @@ impl<'t> Lowering<'t> {
                 );
             }
             let code = level.code.value;
-            if f64::from(code as f32) != code {
+            if !code.is_finite() || f64::from(code as f32) != code {
                 let message = format!("the code {code} of `{}` is not exact in f32", level.name.value);
                 return error(codes::DOMAIN, message, level.code.span, "choose a multiple of a power of two");
             }
-            if let Some(other) = codes_seen.insert(code.to_bits(), &level.name.value) {
+            if let Some(other) = codes_seen.insert((code + 0.0).to_bits(), &level.name.value) {
                 let message = format!("`{}` and `{other}` have the same code {code}", level.name.value);
                 return error(codes::DUPLICATE, message, level.code.span, "codes must differ");
             }
@@ -238,7 +231,7 @@ impl<'t> Lowering<'t> {
             table::Domain::Bool => (Domain::Discrete(self.sets[SetId::BOOL.0].clone()), Some(SetId::BOOL)),
             table::Domain::Int(from, to) => {
                 let count = to.checked_sub(*from).and_then(|n| n.checked_add(1)).unwrap_or(0);
-                if !(2..=MAX_LEVELS as i64).contains(&count) || from.abs().max(to.abs()) > 1 << 24 {
+                if !(2..=MAX_LEVELS as i64).contains(&count) || from.unsigned_abs().max(to.unsigned_abs()) > 1 << 24 {
                     return Err(bad(format!("an integer input spans 2 to {MAX_LEVELS} values of at most 2^24")));
                 }
                 let levels = Levels {
@@ -588,8 +581,8 @@ impl<'t> Lowering<'t> {
         let to_set = self.input_sets[input.index()].ok_or_else(|| no_levels(name.span))?;
         let Term::Level(from_set, term) = self.input_term(origin, env) else { return Err(no_levels(name.span)) };
         let mut renaming = Vec::new();
-        for level in &self.sets[from_set.0].names {
-            let new = map.iter().find(|(old, _)| old.value == *level);
+        for (index, level) in self.sets[from_set.0].names.iter().enumerate() {
+            let new = map.iter().find(|(old, _)| self.sets[from_set.0].find(&old.value) == Some(index as u8));
             let (target, span) = new.map_or((level.as_str(), name.span), |(_, new)| (new.value.as_str(), new.span));
             match self.sets[to_set.0].find(target) {
                 Some(index) => renaming.push(index),
@@ -697,28 +690,110 @@ fn approximate(count: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::diag::Source;
-    use crate::program::Program;
-    use crate::table::Table;
 
-    #[test]
-    fn uses_that_multiply_are_refused_in_time() {
-        let names: String =
-            (0..60).map(|i| format!("\"n{}\": \"if true {{ n{i} }} else {{ n{i} }}\",", i + 1)).collect();
+    /// A table with some inputs; `rest` are its other fields.
+    fn check(names: &str, rest: &str) -> std::result::Result<Program, Failure> {
         let text = format!(
             r#"Table(language: 1, name: "t", hit_policy: First,
-                inputs: {{"s": Bool(), "x": Range(from: 0, to: 1)}},
-                names: {{"n0": "x", {names}}},
-                output: Number(),
-                cases: [Case(id: 1, when: "s", value: "n60"), Case(id: 2, when: "!s", value: "case(1, x = 0)")],
-                default: 0)"#
+                inputs: {{"a": Bool(), "H": Levels(values: {{"none": 0, "right": 0.25, "left": 0.5}}),
+                          "x": Range(from: 0, to: 1), "n": Int(from: 0, to: 3)}},
+                names: {{{names}}}, default: 0, {rest})"#
         );
-        let program = Table::parse(Source::new("t", text)).and_then(|table| Program::check(&table));
-        let message = program.err().map(|e| e.diagnostics[0].message.clone());
-        assert_eq!(message.as_deref(), Some("names and references multiply beyond measure"));
+        Table::parse(Source::new("test.ron", text)).and_then(|table| Program::check(&table))
     }
 
-    /// The deepest accepted nesting, and one beyond any bound, on a thread with little stack.
+    fn first_error(result: std::result::Result<Program, Failure>) -> String {
+        result.map_or_else(|f| f.diagnostics[0].message.clone(), |_| "none".to_owned())
+    }
+
+    const PLAIN: &str = r#"output: Number(), cases: [Case(id: 1, when: "a", value: "x")]"#;
+
+    #[test]
+    fn chains_of_names_do_not_overflow_the_stack() {
+        let forms = [
+            "N",
+            "-N",
+            "N + 1",
+            "min(N, 1)",
+            "mix(0, 1, N)",
+            "if a { N } else { 1 }",
+            "select(1, N, a)",
+            "let q = N; q",
+            "f32(N < 1)",
+            "f32((if N < 1 { H } else { left }) == H)",
+            "vec3(N).x",
+            "f32(H in {left} && !(N == 1))",
+        ];
+        for form in forms {
+            let links: String =
+                (0..2_000).map(|i| format!("\"n{i}\": \"{}\",\n", form.replace('N', &format!("n{}", i + 1)))).collect();
+            let found = first_error(check(&format!("{links} \"n2000\": \"x\""), PLAIN));
+            assert_eq!(found, "names and references are nested too deeply", "{form}");
+        }
+    }
+
+    #[test]
+    fn shared_names_cost_no_exponential_time() {
+        let doubling = |first: &str, next: fn(usize) -> String| {
+            let rest: String = (0..30).map(|i| format!(", \"n{}\": \"{}\"", i + 1, next(i))).collect();
+            format!("\"n0\": \"{first}\"{rest}")
+        };
+        // Levels that share parts.
+        let names = doubling("if a { H } else { left }", |i| format!("if x < 0.{i}1 {{ n{i} }} else {{ n{i} }}"));
+        let rest = r#"output: Number(), cases: [Case(id: 1, when: "n30 == left", value: "x")]"#;
+        assert_eq!(first_error(check(&names, rest)), "none");
+        // Names that are lowered again for a reference.
+        let names = doubling("x < 0.5", |i| format!("n{i} && n{i}"));
+        let rest = r#"output: Number(), cases: [
+            Case(id: 1, when: "a", value: "case(2, x = 0.25)"), Case(id: 2, when: "n30", lines: [(1, "n30")])]"#;
+        assert_eq!(first_error(check(&names, rest)), "none");
+        // Vectors are bounded like numbers.
+        let names = doubling("vec2(x, x)", |i| format!("n{i} * n{i}"));
+        assert_eq!(
+            first_error(check(&names, PLAIN)),
+            "the value is too large once names and references are written out"
+        );
+    }
+
+    #[test]
+    fn levels_are_named_by_code_as_well() {
+        let symmetric = r#"output: Number(), symmetries: {"m": Symmetry(map: {"H": {0.5: 0.25, "right": "left"}})},
+            cases: [Case(id: 1, when: {"H": 0.5}, value: 1), Case(id: 2, is: (case: 1, under: "m"))]"#;
+        let program = check("", symmetric).unwrap_or_else(|e| panic!("{e}"));
+        let printer = super::super::print::Printer { pool: &program.pool, inputs: &program.inputs };
+        assert_eq!(printer.cond(program.rows[1].guard), "H == right");
+
+        let named = r#"output: List(of: "n", max: 2), cases: [Case(id: 1, when: "a", value: "[0, n]")]"#;
+        let failure = check("", named).expect_err("the default is a number");
+        assert_eq!(failure.diagnostics.len(), 1, "{failure}");
+    }
+
+    #[test]
+    fn the_result_map_sees_the_replaced_inputs() {
+        let rest = r#"output: Number(), symmetries: {"m": Symmetry(map: {"a": "!a"}, result: "value + x")}, cases: [
+            Case(id: 1, when: "a", value: 1), Case(id: 2, is: (case: 1, under: "m")),
+            Case(id: 3, when: "n == 1", value: "case(2, x = 0.5)")]"#;
+        let program = check("", rest).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(program.pool.constant(program.rows[2].lines[0].values[0]), Some(1.5));
+    }
+
+    #[test]
+    fn extreme_declarations_are_refused() {
+        let with = |input: &str| {
+            let text = format!(
+                r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{"a": Bool(), "i": {input}}},
+                   output: Number(), cases: [Case(id: 1, when: "a", value: 1)], default: 0)"#
+            );
+            first_error(Table::parse(Source::new("test.ron", text)).and_then(|table| Program::check(&table)))
+        };
+        assert!(with("Int(from: -9223372036854775808, to: -9223372036854775807)").starts_with("an integer input"));
+        assert_eq!(with(r#"Levels(values: {"p": inf, "q": 0})"#), "the code inf of `p` is not exact in f32");
+        assert_eq!(with(r#"Levels(values: {"p": -0.0, "q": 0})"#), "`q` and `p` have the same code 0");
+    }
+
+    /// The deepest accepted nesting, and one beyond any bound.
     #[test]
     fn long_chains_of_names_are_refused_in_time() {
         let nested = format!("{}x{}", "if s { ".repeat(20), " } else { 0 }".repeat(20));

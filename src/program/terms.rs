@@ -6,7 +6,9 @@
 //! row is lowered again in an environment in which some inputs mean something
 //! else. That is the whole treatment of `case(…)` and of `is:`.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::InputId;
@@ -21,10 +23,10 @@ pub(super) type Result<T> = std::result::Result<T, Diagnostic>;
 const MAX_DEPTH: u32 = 200;
 const MAX_SIZE: u32 = 50_000;
 
-/// Deepest nesting of expressions while names and references are followed. Names
-/// can form long chains, each link adding the depth of its own expression, and
-/// the stack must hold them all before their size is known.
-const MAX_NESTING: u32 = 256;
+/// How many expressions may be open at once while names and references are
+/// followed. An unoptimised build needs some 10 KiB of stack for each, of the
+/// 2 MiB that a thread has.
+const MAX_OPEN: u32 = 100;
 
 /// A level that depends on inputs.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +65,8 @@ pub(super) enum Expected {
 pub(super) struct Env {
     /// Inputs that mean something else here.
     overrides: Arc<HashMap<InputId, Term>>,
+    /// What named values became under these overrides.
+    names: Rc<RefCell<HashMap<usize, Term>>>,
     /// Names bound by `let`, innermost last.
     locals: Vec<(String, Term)>,
     /// Which cases are being lowered, outermost first.
@@ -88,42 +92,49 @@ impl Env {
 impl Lowering<'_> {
     /// Lowers an expression.
     pub(super) fn term(&mut self, expr: &Expr, env: &Env, expected: Expected) -> Result<Term> {
-        if self.nesting == MAX_NESTING {
-            return Err(Diagnostic::error(codes::TOO_DEEP, "names and references are nested too deeply")
-                .at(expr.span, format!("level {MAX_NESTING} is reached here"))
-                .help("shorten the chain of names that use each other and lead here"));
+        // Names and references lead from one expression into the next, so the
+        // limit of the parser alone does not bound the stack.
+        if self.depth == MAX_OPEN {
+            let message = "names and references are nested too deeply";
+            return Err(Diagnostic::error(codes::TOO_DEEP, message)
+                .at(expr.span, "not followed any further")
+                .help(format!("through all of them, expressions nest at most {MAX_OPEN} deep")));
         }
-        // Where a name or case is used under a replacement it is lowered anew, so uses can multiply.
-        self.budget = self.budget.checked_sub(1).ok_or_else(|| {
-            Diagnostic::error(codes::TOO_DEEP, "names and references multiply beyond measure")
-                .at(expr.span, "given up here")
-                .help("use fewer names that use other names twice, or none under `case(...)` and `is`")
-        })?;
-        self.nesting += 1;
+        self.depth += 1;
         let term = self.term_inner(expr, env, expected);
-        self.nesting -= 1;
+        self.depth -= 1;
         let term = term?;
         self.check_size(&term, expr.span)?;
         Ok(term)
     }
 
     fn check_size(&self, term: &Term, span: Span) -> Result<()> {
-        let facts = match term {
-            Term::Number(e) => self.pool.expr_facts(*e),
-            Term::Bool(c) => self.pool.cond_facts(*c),
-            _ => return Ok(()),
+        let facts: Vec<pool::Facts> = match term {
+            Term::Number(e) => vec![self.pool.expr_facts(*e)],
+            Term::Vector(parts) | Term::List(parts) => parts.iter().map(|e| self.pool.expr_facts(*e)).collect(),
+            Term::Bool(c) => vec![self.pool.cond_facts(*c)],
+            Term::Level(..) => return Ok(()),
         };
-        if facts.depth > MAX_DEPTH || facts.size > MAX_SIZE {
-            let message = "the value is too large once names and references are written out";
-            return Err(Diagnostic::error(codes::TOO_DEEP, message)
-                .at(span, format!("{} operations, {} deep", facts.size, facts.depth))
-                .help(format!("at most {MAX_SIZE} operations, {MAX_DEPTH} deep")));
+        for facts in facts {
+            if facts.depth > MAX_DEPTH || facts.size > MAX_SIZE {
+                let message = "the value is too large once names and references are written out";
+                return Err(Diagnostic::error(codes::TOO_DEEP, message)
+                    .at(span, format!("{} operations, {} deep", facts.size, facts.depth))
+                    .help(format!("at most {MAX_SIZE} operations, {MAX_DEPTH} deep")));
+            }
         }
         Ok(())
     }
 
     fn term_inner(&mut self, expr: &Expr, env: &Env, expected: Expected) -> Result<Term> {
         let span = expr.span;
+        // A level is written by its name or by its code.
+        if let Expected::Level(set) = expected
+            && matches!(&expr.kind, ExprKind::Number(_) | ExprKind::Unary(ast::UnaryOp::Negate, _))
+            && let Some(level) = self.literal_level(set, expr, env)?
+        {
+            return Ok(Term::Level(set, Arc::new(LevelTerm::Const(level))));
+        }
         match &expr.kind {
             ExprKind::Number(value) => Ok(Term::Number(self.constant(*value, span)?)),
             ExprKind::Name(name) => self.name(name, span, env, expected),
@@ -226,6 +237,13 @@ impl Lowering<'_> {
         self.named(name, env)
     }
 
+    /// Whether a name stands for something by itself, as levels do not.
+    fn is_defined(&self, name: &str, env: &Env) -> bool {
+        env.locals.iter().any(|(local, _)| local == name)
+            || self.input_named(name).is_some()
+            || self.named_index.contains_key(name)
+    }
+
     /// What an input means in an environment.
     pub(super) fn input_term(&mut self, input: InputId, env: &Env) -> Term {
         if let Some(term) = env.overrides.get(&input) {
@@ -247,6 +265,9 @@ impl Lowering<'_> {
         if cacheable && let Some(term) = &self.named_terms[index] {
             return Ok(Some(term.clone()));
         }
+        if let Some(term) = env.names.borrow().get(&index) {
+            return Ok(Some(term.clone()));
+        }
         let entry = &self.table.names[index];
         if self.resolving.contains(&index) {
             let chain = self.resolving.iter().chain([&index]).map(|i| self.table.names[*i].name.value.as_str());
@@ -264,6 +285,7 @@ impl Lowering<'_> {
         if cacheable {
             self.named_terms[index] = Some(term.clone());
         }
+        env.names.borrow_mut().insert(index, term.clone());
         Ok(Some(term))
     }
 
@@ -351,13 +373,11 @@ impl Lowering<'_> {
 
     fn equality(&mut self, a: &Expr, b: &Expr, env: &Env) -> Result<CondId> {
         // A bare level name or code takes its meaning from the other side.
-        let is_known = |me: &mut Self, e: &Expr| match &e.kind {
-            ExprKind::Name(name) => {
-                matches!(name.as_str(), "true" | "false") || me.resolve(name, env).is_ok_and(|t| t.is_some())
-            }
+        let is_known = match &a.kind {
+            ExprKind::Name(name) => matches!(name.as_str(), "true" | "false") || self.is_defined(name, env),
             _ => true,
         };
-        let (known, other) = if is_known(self, a) { (a, b) } else { (b, a) };
+        let (known, other) = if is_known { (a, b) } else { (b, a) };
         let left = self.term(known, env, Expected::Anything)?;
         if let Term::Level(set, term) = &left {
             if let Some(level) = self.literal_level(*set, other, env)? {
@@ -397,7 +417,7 @@ impl Lowering<'_> {
     fn literal_level(&mut self, set: SetId, expr: &Expr, env: &Env) -> Result<Option<u8>> {
         let word = match &expr.kind {
             ExprKind::Name(name) if self.sets[set.0].names.contains(name) => name.clone(),
-            ExprKind::Name(name) if self.resolve(name, env)?.is_some() => return Ok(None),
+            ExprKind::Name(name) if self.is_defined(name, env) => return Ok(None),
             ExprKind::Name(name) => name.clone(),
             ExprKind::Number(number) => format!("{number}"),
             ExprKind::Unary(ast::UnaryOp::Negate, inner) => match inner.kind {
@@ -459,24 +479,41 @@ impl Lowering<'_> {
 
     /// The condition that a level term lies in a set of levels.
     pub(super) fn level_in(&mut self, set: SetId, term: &LevelTerm, levels: LevelSet) -> CondId {
-        match term {
+        self.level_in_known(set, term, levels, &mut HashMap::new())
+    }
+
+    /// Terms share parts; `known` keeps a part from being visited once per path to it.
+    fn level_in_known(
+        &mut self,
+        set: SetId,
+        term: &LevelTerm,
+        levels: LevelSet,
+        known: &mut HashMap<(*const LevelTerm, LevelSet), CondId>,
+    ) -> CondId {
+        let key = (std::ptr::from_ref(term), levels);
+        if let Some(condition) = known.get(&key) {
+            return *condition;
+        }
+        let condition = match term {
             LevelTerm::Const(level) => self.pool.always(levels.contains(*level)),
             LevelTerm::Input(input) => {
                 let count = self.sets[set.0].count();
                 self.pool.level(*input, levels, count)
             }
             LevelTerm::If(condition, then, other) => {
-                let then = self.level_in(set, then, levels);
-                let other = self.level_in(set, other, levels);
+                let then = self.level_in_known(set, then, levels, known);
+                let other = self.level_in_known(set, other, levels, known);
                 self.pool.cond_if(*condition, then, other)
             }
             LevelTerm::Map(inner, map) => {
                 let preimage = map.iter().enumerate().filter(|(_, to)| levels.contains(**to));
                 let preimage = LevelSet(preimage.fold(0, |mask, (from, _)| mask | 1 << from));
                 let from = self.set_of(inner);
-                self.level_in(from, inner, preimage)
+                self.level_in_known(from, inner, preimage, known)
             }
-        }
+        };
+        known.insert(key, condition);
+        condition
     }
 
     /// The level set that a term ranges over.
@@ -837,7 +874,7 @@ impl Lowering<'_> {
             overrides.insert(input, term);
         }
         let mut inner =
-            Env { overrides: Arc::new(overrides), locals: Vec::new(), cases: env.cases.clone(), referenced: true };
+            Env { overrides: Arc::new(overrides), cases: env.cases.clone(), referenced: true, ..Env::default() };
         inner.cases.push(id.value);
         let (_, lines, result) = self.row_parts(id, &inner)?;
         // The default applies where no line does; the guard is not part of the value.
@@ -876,10 +913,7 @@ impl Lowering<'_> {
     /// Applies the result map of a symmetry.
     pub(super) fn apply_result(&mut self, map: &Expr, value: Term, env: &Env) -> Result<Term> {
         match value {
-            Term::Number(_) => {
-                let inner = Env { overrides: Arc::default(), ..env.with_local("value", value) };
-                Ok(Term::Number(self.numeric(map, &inner)?))
-            }
+            Term::Number(_) => Ok(Term::Number(self.numeric(map, &env.with_local("value", value))?)),
             other => Err(type_error(map.span, &self.describe(&other), "only a single number can be mapped")),
         }
     }
@@ -888,7 +922,7 @@ impl Lowering<'_> {
     pub(super) fn mapped_env(&self, images: HashMap<InputId, Term>, env: &Env) -> Env {
         let mut overrides = (*env.overrides).clone();
         overrides.extend(images);
-        Env { overrides: Arc::new(overrides), ..env.clone() }
+        Env { overrides: Arc::new(overrides), names: Rc::default(), ..env.clone() }
     }
 }
 

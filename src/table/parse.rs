@@ -19,7 +19,7 @@ pub(crate) fn expression(text: &str, base: usize) -> Result<Expr, Diagnostic> {
     }
     let expr = parser.block()?;
     match parser.peek() {
-        Token::End => Ok(expr),
+        Token::End => check_depth(&expr, 0).map(|()| expr),
         Token::Symbol(")") => {
             Err(parser.unexpected("an operator or the end of the expression").help("this `)` closes nothing"))
         }
@@ -138,27 +138,27 @@ impl<'a> Parser<'a> {
         let mut left = self.unary()?;
         // A left-associative chain nests to the left: it counts as depth too.
         let mut links = 0;
+        let mut compared = false;
         loop {
-            if self.keyword("in") {
-                left = self.membership(left)?;
-                continue;
-            }
-            let Token::Symbol(symbol) = self.peek() else { break };
-            let Some((binds, op)) = strength(symbol) else { break };
-            if binds < weakest {
-                break;
-            }
+            let operator = match self.peek() {
+                Token::Word("in") => None,
+                Token::Symbol(symbol) => match strength(symbol) {
+                    Some(operator) if operator.0 >= weakest => Some(operator),
+                    _ => break,
+                },
+                _ => break,
+            };
             links += 1;
             if self.depth + links > MAX_DEPTH {
                 return Err(too_deep(self.span()));
             }
             self.next();
+            let Some((binds, op)) = operator else {
+                left = self.membership(left)?;
+                continue;
+            };
             let right = self.nested(|p| p.binary(binds + 1))?;
-            if binds == COMPARISON
-                && let ExprKind::Binary(first, ..) = &left.kind
-                && strength(first.symbol()).is_some_and(|(s, _)| s == COMPARISON)
-                && !self.closed(&left)
-            {
+            if std::mem::replace(&mut compared, binds == COMPARISON) && compared {
                 return Err(Diagnostic::error(codes::EXPRESSION, "comparisons cannot be chained")
                     .at(left.span.to(right.span), "write `a < b && b < c`"));
             }
@@ -166,11 +166,6 @@ impl<'a> Parser<'a> {
             left = Expr { span, kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) };
         }
         Ok(left)
-    }
-
-    /// Whether the expression that was just read stands in parentheses.
-    fn closed(&self, expr: &Expr) -> bool {
-        self.tokens.iter().any(|(span, token)| *token == Token::Symbol("(") && span.start == expr.span.start)
     }
 
     fn membership(&mut self, left: Expr) -> Result<Expr, Diagnostic> {
@@ -197,6 +192,7 @@ impl<'a> Parser<'a> {
                 let span = self.next().0;
                 Ok(Spanned::new(span, format!("{}", if negative { -number } else { number })))
             }
+            _ if negative => Err(self.unexpected("a number")),
             _ => self.name("the name of a level"),
         }
     }
@@ -215,7 +211,12 @@ impl<'a> Parser<'a> {
 
     fn postfix(&mut self) -> Result<Expr, Diagnostic> {
         let mut expr = self.primary()?;
+        let mut links = 0;
         while self.eat(".") {
+            links += 1;
+            if self.depth + links > MAX_DEPTH {
+                return Err(too_deep(self.span()));
+            }
             let swizzle = self.name("a component such as `x` or `xy`")?;
             let span = expr.span.to(swizzle.span);
             expr = Expr { span, kind: ExprKind::Swizzle(Box::new(expr), swizzle) };
@@ -320,6 +321,22 @@ impl<'a> Parser<'a> {
     }
 }
 
+/// Chains inside parentheses inside chains: each is short, but the tree may still be deep.
+fn check_depth(expr: &Expr, depth: usize) -> Result<(), Diagnostic> {
+    if depth > MAX_DEPTH {
+        return Err(too_deep(expr.span));
+    }
+    let below = |expr: &Expr| check_depth(expr, depth + 1);
+    match &expr.kind {
+        ExprKind::Number(_) | ExprKind::Name(_) => Ok(()),
+        ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => below(a),
+        ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => below(a).and_then(|()| below(b)),
+        ExprKind::If(a, b, c) => below(a).and_then(|()| below(b)).and_then(|()| below(c)),
+        ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().try_for_each(below),
+        ExprKind::Case(_, set) => set.iter().try_for_each(|(_, value)| below(value)),
+    }
+}
+
 fn too_deep(span: Span) -> Diagnostic {
     Diagnostic::error(codes::TOO_DEEP, format!("the expression is nested deeper than {MAX_DEPTH} levels"))
         .at(span, "too deep from here on")
@@ -382,6 +399,8 @@ mod tests {
         assert_eq!(parsed("(a + b"), "error: expected `)`, found the end of the expression");
         assert_eq!(parsed("a + b)"), "error: expected an operator or the end of the expression, found `)`");
         assert_eq!(parsed("a < b < c"), "error: comparisons cannot be chained");
+        assert_eq!(parsed("(a) == b == (c)"), "error: comparisons cannot be chained");
+        assert_eq!(parsed("a in {-b}"), "error: expected a number, found `b`");
         assert_eq!(parsed("if a { 1 }"), "error: expected `else`, found the end of the expression");
         assert_eq!(parsed(""), "error: empty expression");
         assert_eq!(parsed("a & b"), "error: `&` has no meaning here");
@@ -390,7 +409,16 @@ mod tests {
 
     #[test]
     fn depth_is_bounded() {
-        for text in ["(".repeat(10_000), "-".repeat(10_000), "1+".repeat(10_000) + "1", "if a {".repeat(10_000)] {
+        let stairs = (1..=60).fold("(".repeat(60) + "a", |text, links| text + ")" + &"+a".repeat(links));
+        for text in [
+            "(".repeat(10_000),
+            "-".repeat(10_000),
+            "1+".repeat(10_000) + "1",
+            "if a {".repeat(10_000),
+            "a".to_owned() + &" in {b}".repeat(10_000),
+            "a".to_owned() + &" .x".repeat(10_000),
+            stairs,
+        ] {
             assert!(parsed(&text).contains("nested deeper"), "{}", parsed(&text));
         }
     }

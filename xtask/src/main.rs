@@ -1,1 +1,269 @@
-fn main() {}
+//! `cargo xtask`: the chores of this repository. Standard library only, so
+//! that it compiles in a second.
+
+use std::env;
+use std::ffi::OsStr;
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+use std::time::{Duration, Instant};
+
+const USAGE: &str = "\
+Usage: cargo xtask <task> [arguments]
+
+  test [--no-gpu-setup] [ARGS]   set up what the tests need, then run all of them;
+                                 ARGS go to the main `cargo test`
+  ci [ARGS]                      formatting, lints and documentation, then test
+  bless                          rewrite generated/ and the snapshots from what the code does now
+  bench [ARGS]                   run the benchmarks; ARGS go to `cargo bench`
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let (task, rest) = match arguments.split_first() {
+        Some((task, rest)) => (task.as_str(), rest),
+        None => ("help", &[][..]),
+    };
+    let mut steps = Steps::default();
+    let result = match task {
+        "test" => test(&mut steps, rest),
+        "ci" => lint(&mut steps).and_then(|()| test(&mut steps, rest)),
+        "bless" => bless(&mut steps),
+        "bench" => bench(&mut steps, rest),
+        "help" | "--help" | "-h" => {
+            print!("{USAGE}");
+            return ExitCode::SUCCESS;
+        }
+        unknown => {
+            eprint!("error: there is no task `{unknown}`\n\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    steps.summary();
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(code) => ExitCode::from(code),
+    }
+}
+
+/// The exit code of the step that failed.
+type Result<T = ()> = std::result::Result<T, u8>;
+
+// Tasks
+
+/// Everything that has to hold, on this machine.
+fn test(steps: &mut Steps, arguments: &[String]) -> Result {
+    let set_up = !arguments.iter().any(|a| a == "--no-gpu-setup");
+    let arguments: Vec<&String> = arguments.iter().filter(|a| *a != "--no-gpu-setup").collect();
+    if set_up {
+        vulkan_driver(steps)?;
+    }
+    let glslang = glslang(steps, set_up);
+    let tests = |arguments: &[&str]| {
+        let mut command = cargo(arguments);
+        command.env("UMBRAGE_REQUIRE_ADAPTER", "1");
+        if glslang {
+            command.env("UMBRAGE_REQUIRE_GLSLANG", "1");
+        }
+        command
+    };
+    // First and alone, so that the line `adapter: ...` is seen and a missing
+    // adapter is the first thing that fails. `--workspace` resolves features as
+    // the main run does: wgpu is built once.
+    steps.run("adapter", tests(&["test", "--workspace", "--test", "gpu_adapter", "--", "--nocapture"]))?;
+    let mut all = tests(&["test", "--workspace"]);
+    all.args(arguments);
+    steps.run("tests", all)?;
+    // The compiler alone. Only checked, not built: no second wgpu, no second set of tests.
+    steps.run("compiler alone", cargo(&["check", "--package", "umbrage", "--no-default-features"]))
+}
+
+/// Formatting, lints and documentation.
+fn lint(steps: &mut Steps) -> Result {
+    steps.run("formatting", cargo(&["fmt", "--all", "--check"]))?;
+    steps.run("lints", cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))?;
+    let mut doc = cargo(&["doc", "--workspace", "--no-deps"]);
+    doc.env("RUSTDOCFLAGS", "-D warnings");
+    steps.run("documentation", doc)
+}
+
+/// Takes what the code does now as what it should do. Look at the difference before committing it.
+fn bless(steps: &mut Steps) -> Result {
+    steps.run("generated", cargo(&["run", "--release", "--", "build"]))?;
+    let mut snapshots = cargo(&["test", "--workspace"]);
+    snapshots.env("INSTA_UPDATE", "always");
+    steps.run("snapshots", snapshots)
+}
+
+/// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.
+/// None needs wgpu, so none builds it.
+fn bench(steps: &mut Steps, arguments: &[String]) -> Result {
+    let mut optimised = cargo(&["bench", "--package", "umbrage", "--no-default-features"]);
+    optimised.args(arguments);
+    steps.run("benchmarks", optimised)?;
+    let profile = ["bench", "--package", "umbrage", "--no-default-features", "--profile", "unoptimised"];
+    let mut unoptimised = cargo(&profile);
+    unoptimised.args(["--bench", "compile"]).args(arguments);
+    steps.run("benchmarks without optimisation", unoptimised)
+}
+
+// What the tests need from the system
+
+/// Makes sure that some Vulkan driver is installed; a software one will do.
+fn vulkan_driver(steps: &mut Steps) -> Result {
+    if !cfg!(target_os = "linux") {
+        // Metal and Direct3D 12 come with the system.
+        return Ok(());
+    }
+    if has_vulkan_driver() {
+        return Ok(());
+    }
+    println!("No Vulkan driver found: installing Mesa's software driver.");
+    if apt_install(steps, &["mesa-vulkan-drivers", "libvulkan1"]) && has_vulkan_driver() {
+        return Ok(());
+    }
+    eprintln!(
+        "error: the tests run shaders, and there is no Vulkan driver on this machine\n\
+         \x20 Debian, Ubuntu  apt-get install mesa-vulkan-drivers libvulkan1\n\
+         \x20 Fedora          dnf install mesa-vulkan-drivers vulkan-loader\n\
+         \x20 Arch            pacman -S vulkan-swrast vulkan-icd-loader\n\
+         \x20 elsewhere       any Vulkan driver and loader; Mesa's `lavapipe` needs no GPU\n\
+         A driver in an unusual place is named by VK_DRIVER_FILES. With --no-gpu-setup nothing is\n\
+         looked for or installed."
+    );
+    Err(1)
+}
+
+fn has_vulkan_driver() -> bool {
+    let named = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_ADD_DRIVER_FILES"];
+    let directories = ["/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
+    named.iter().any(|name| env::var_os(name).is_some_and(|value| !value.is_empty()))
+        || directories.iter().any(|directory| has_file_with_extension(directory, "json"))
+}
+
+fn has_file_with_extension(directory: &str, extension: &str) -> bool {
+    let Ok(entries) = Path::new(directory).read_dir() else { return false };
+    entries.flatten().any(|entry| entry.path().extension() == Some(OsStr::new(extension)))
+}
+
+/// Makes sure that glslang is there, if that is possible. The tests can do without.
+fn glslang(steps: &mut Steps, set_up: bool) -> bool {
+    let found = || runs(Command::new("glslangValidator").arg("--version"));
+    if found() {
+        return true;
+    }
+    if set_up {
+        println!("glslangValidator not found: installing it.");
+        if apt_install(steps, &["glslang-tools"]) && found() {
+            return true;
+        }
+    }
+    let line = "*".repeat(78);
+    eprintln!(
+        "{line}\n\
+         warning: glslangValidator is missing, so generated GLSL is NOT validated by it.\n\
+         The tests that would do so are skipped. It is Debian's package `glslang-tools`,\n\
+         elsewhere `glslang`.\n\
+         {line}"
+    );
+    steps.note("glslang is missing: its validation of GLSL was skipped");
+    false
+}
+
+/// Installs Debian packages, if this is such a system and the rights are there.
+fn apt_install(steps: &mut Steps, packages: &[&str]) -> bool {
+    if !runs(Command::new("apt-get").arg("--version")) {
+        return false;
+    }
+    let Some(prefix) = root_prefix() else {
+        eprintln!("Neither root nor `sudo` without a password: nothing can be installed.");
+        return false;
+    };
+    let apt = |arguments: &[&str]| {
+        let mut words = prefix.iter().copied().chain(["apt-get"]).chain(arguments.iter().copied());
+        let mut command = Command::new(words.next().unwrap_or("apt-get"));
+        command.args(words);
+        command
+    };
+    let mut install = vec!["install", "-y", "--no-install-recommends"];
+    install.extend(packages);
+    // An index that is partly out of date may still do, so only the installation decides.
+    let _ = steps.run("apt-get update", apt(&["update"]));
+    steps.run(&format!("apt-get install {}", packages.join(" ")), apt(&install)).is_ok()
+}
+
+/// What to write before a command that needs root; `None` if it cannot be had.
+/// The variable goes through `env`, because `sudo` drops the environment.
+fn root_prefix() -> Option<&'static [&'static str]> {
+    let id = Command::new("id").arg("-u").output().ok()?;
+    if id.stdout.trim_ascii() == b"0" {
+        return Some(&["env", "DEBIAN_FRONTEND=noninteractive"]);
+    }
+    runs(Command::new("sudo").args(["-n", "true"])).then_some(&["sudo", "-n", "env", "DEBIAN_FRONTEND=noninteractive"])
+}
+
+/// Whether a command can be started and succeeds; its output is dropped.
+fn runs(command: &mut Command) -> bool {
+    let quiet = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    quiet.status().is_ok_and(|status| status.success())
+}
+
+// Steps
+
+/// What was run, and how it went.
+#[derive(Default)]
+struct Steps {
+    done: Vec<(String, Duration, bool)>,
+    notes: Vec<&'static str>,
+}
+
+impl Steps {
+    /// Runs a command, its output passed through.
+    fn run(&mut self, name: &str, mut command: Command) -> Result {
+        println!("\n==> {name}: {}", shown(&command));
+        let start = Instant::now();
+        let result = match command.stdin(Stdio::null()).status() {
+            Ok(status) if status.success() => Ok(()),
+            // A process that was killed by a signal has no code.
+            Ok(status) => Err(status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1)),
+            Err(error) => {
+                eprintln!("error: cannot be started: {error}");
+                Err(1)
+            }
+        };
+        self.done.push((name.to_owned(), start.elapsed(), result.is_ok()));
+        result
+    }
+
+    fn note(&mut self, note: &'static str) {
+        self.notes.push(note);
+    }
+
+    fn summary(&self) {
+        if self.done.is_empty() {
+            return;
+        }
+        println!("\nSummary");
+        for (name, time, ok) in &self.done {
+            println!("  {:<6} {:>7.1} s  {name}", if *ok { "ok" } else { "FAILED" }, time.as_secs_f64());
+        }
+        for note in &self.notes {
+            println!("  note: {note}");
+        }
+    }
+}
+
+/// The `cargo` that runs this, so that toolchain overrides stay in force.
+fn cargo(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments);
+    if let Some(root) = Path::new(env!("CARGO_MANIFEST_DIR")).parent() {
+        command.current_dir(root);
+    }
+    command
+}
+
+fn shown(command: &Command) -> String {
+    let program = Path::new(command.get_program()).file_name().unwrap_or_default();
+    let words = std::iter::once(program).chain(command.get_args());
+    words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,114 @@
+//! What the documentation shows is true: every table in it is a table.
+
+use std::path::{Path, PathBuf};
+
+use umbrage::diag::Source;
+use umbrage::eval::Interpreter;
+use umbrage::program::Program;
+use umbrage::table::Table;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The files of `docs/` with an extension, in order.
+fn docs(folder: &str, extension: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(root().join(folder)).unwrap_or_else(|e| panic!("{folder}: {e}"));
+    let paths = entries.map(|entry| entry.unwrap_or_else(|e| panic!("{folder}: {e}")).path());
+    let mut paths: Vec<PathBuf> = paths.filter(|path| path.extension().is_some_and(|e| e == extension)).collect();
+    paths.sort();
+    paths
+}
+
+/// The fenced blocks of a language, with the line each begins on.
+fn blocks<'t>(text: &'t str, language: &str) -> Vec<(usize, &'t str)> {
+    let open = format!("```{language}");
+    let mut found = Vec::new();
+    let (mut offset, mut inside) = (0, None);
+    for (number, line) in text.split_inclusive('\n').enumerate() {
+        match inside {
+            None if line.trim_end() == open => inside = Some((number + 2, offset + line.len())),
+            Some((first, start)) if line.trim_end() == "```" => {
+                found.push((first, &text[start..offset]));
+                inside = None;
+            }
+            _ => {}
+        }
+        offset += line.len();
+    }
+    assert!(inside.is_none(), "a code block is not closed");
+    found
+}
+
+/// Checks a table and runs its examples.
+fn check(name: &str, text: &str) -> Program {
+    let program = Table::parse(Source::new(name, text)).and_then(|table| Program::check(&table));
+    let program = program.unwrap_or_else(|failure| panic!("{failure}"));
+    let mut interpreter = Interpreter::<f32>::new(&program);
+    for example in &program.examples {
+        let place = format!("{name}:{}", program.line(example.span));
+        let got = interpreter.evaluate(&example.inputs).unwrap_or_else(|n| panic!("{place}: {n:?}"));
+        assert_eq!(got.row, Some(example.row), "{place}: another case is taken");
+        let values: Vec<f64> = got.values.iter().map(|value| f64::from(*value)).collect();
+        assert_eq!(values, example.expected, "{place}");
+    }
+    program
+}
+
+#[test]
+fn tables_in_the_text_are_tables() {
+    let mut texts = docs("docs", "md");
+    texts.push(root().join("README.md"));
+    for path in texts {
+        let text = read(&path);
+        for (line, block) in blocks(&text, "ron") {
+            if block.starts_with("Table(") {
+                check(&format!("{}, block at line {line}", path.display()), block);
+            }
+        }
+    }
+}
+
+#[test]
+fn example_tables_are_tables() {
+    let paths = docs("docs/examples", "ron");
+    assert!(!paths.is_empty());
+    for path in paths {
+        let program = check(&path.to_string_lossy(), &read(&path));
+        assert!(!program.examples.is_empty(), "{} has no examples", path.display());
+    }
+}
+
+/// The tutorial shows its table piece by piece; each piece is in the table, word for word.
+#[test]
+fn the_tutorial_shows_its_table() {
+    let table = read(&root().join("docs/examples/first.ron"));
+    let text = read(&root().join("docs/language.md"));
+    let (tutorial, _) = text.split_once("\n## 2").expect("the tutorial is the first chapter");
+    let pieces = blocks(tutorial, "ron");
+    assert!(pieces.len() > 3, "the tutorial shows pieces of the table");
+    let plain = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (line, piece) in pieces {
+        assert!(plain(&table).contains(&plain(piece)), "docs/language.md:{line} is not in docs/examples/first.ron");
+    }
+}
+
+/// The reference names every function, every diagnostic code and every word it reserves.
+#[test]
+fn the_reference_is_complete() {
+    let text = read(&root().join("docs/language.md"));
+    let functions = umbrage::program::UNARY_FUNCTIONS.iter().map(|(name, _)| *name);
+    let functions = functions.chain(umbrage::program::BINARY_FUNCTIONS.iter().map(|(name, _)| *name));
+    let functions = functions.chain(umbrage::program::TERNARY_FUNCTIONS.iter().map(|(name, _)| *name));
+    for name in functions.chain(["f32", "select", "vec2", "dot", "length", "distance", "normalize", "cross"]) {
+        assert!(text.contains(&format!("`{name}(")), "`{name}` is not explained");
+    }
+    let source = read(&root().join("src/diag.rs"));
+    for code in source.split("Code(\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+        assert!(text.contains(&format!("| {code} |")), "{code} is not in the table of codes");
+    }
+}
