@@ -40,12 +40,12 @@ impl View<'_> {
     pub(super) const PLAIN: Self = View { symmetry: None, result: None };
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Question {
     /// The level of a fetched input.
     Level(InputId),
-    /// The sign of an affine form.
-    Sign(Affine),
+    /// The sign of an affine form, by its number.
+    Sign(usize),
     /// A comparison that is no such thing.
     Compare(Comparison, ExprId, ExprId),
 }
@@ -67,6 +67,23 @@ pub(super) struct Machine<'p> {
     normaliser: Normaliser,
     levels: Vec<u8>,
     choices: Vec<Choice>,
+    /// The forms asked for, and their numbers. Multiples of a form share one.
+    forms: Vec<Affine>,
+    form_index: HashMap<Affine, usize>,
+    differences: HashMap<ExprId, Option<Difference>>,
+    /// Signs that the last of some forms can have, given those of the others.
+    possible: HashMap<Vec<(usize, u8)>, LevelSet>,
+}
+
+/// What a difference of two numbers is.
+#[derive(Clone, Copy)]
+enum Difference {
+    Constant(Sign),
+    /// A multiple of a form.
+    Form {
+        number: usize,
+        negative: bool,
+    },
 }
 
 impl<'p> Machine<'p> {
@@ -77,6 +94,10 @@ impl<'p> Machine<'p> {
             normaliser: Normaliser::default(),
             levels: vec![0; program.inputs.len()],
             choices: Vec::new(),
+            forms: Vec::new(),
+            form_index: HashMap::new(),
+            differences: HashMap::new(),
+            possible: HashMap::new(),
         }
     }
 
@@ -180,25 +201,68 @@ impl<'p> Machine<'p> {
     fn sign(&mut self, a: ExprId, b: ExprId) -> Option<Sign> {
         let (a, b) = (self.flatten(a), self.flatten(b));
         let difference = self.pool.binary(BinaryOp::Subtract, b, a);
-        let form = self.normaliser.affine(&self.pool, difference)?;
-        let Some(leading) = form.terms.values().next().copied() else { return Some(Sign::of(form.constant)) };
-        // Multiples of a form share one question.
-        let form = form.times(leading.recip())?;
-        let flip = |sign: Sign| if leading.is_negative() { sign.flip() } else { sign };
-        let known = self.choices.iter().find(|c| matches!(&c.question, Question::Sign(known) if *known == form));
-        if let Some(choice) = known {
-            return Some(flip(Sign::ALL[usize::from(choice.answer)]));
+        let (number, negative) = match self.difference(difference)? {
+            Difference::Constant(sign) => return Some(sign),
+            Difference::Form { number, negative } => (number, negative),
+        };
+        let question = Question::Sign(number);
+        let known = self.choices.iter().find(|choice| choice.question == question).map(|choice| choice.answer);
+        let answer = match known {
+            Some(answer) => answer,
+            None => {
+                let possible = self.possible_signs(number);
+                self.answer(question, possible, Some((a, b, negative)))
+            }
+        };
+        let sign = Sign::ALL[usize::from(answer)];
+        Some(if negative { sign.flip() } else { sign })
+    }
+
+    fn difference(&mut self, expr: ExprId) -> Option<Difference> {
+        if let Some(known) = self.differences.get(&expr) {
+            return *known;
         }
-        let before = self.choices.iter().filter_map(|choice| match &choice.question {
-            Question::Sign(form) => Some((form, Sign::ALL[usize::from(choice.answer)])),
+        let difference = self.normaliser.affine(&self.pool, expr).and_then(|form| {
+            let Some(leading) = form.terms.values().next().copied() else {
+                return Some(Difference::Constant(Sign::of(form.constant)));
+            };
+            let form = form.times(leading.recip())?;
+            let number = *self.form_index.entry(form).or_insert_with_key(|form| {
+                self.forms.push(form.clone());
+                self.forms.len() - 1
+            });
+            Some(Difference::Form { number, negative: leading.is_negative() })
+        });
+        self.differences.insert(expr, difference);
+        difference
+    }
+
+    /// The signs that a form can have, given the answers so far.
+    fn possible_signs(&mut self, form: usize) -> LevelSet {
+        let signs = self.choices.iter().filter_map(|choice| match choice.question {
+            Question::Sign(form) => Some((form, choice.answer)),
             _ => None,
         });
-        let can = |sign: Sign| region::can_hold(self.program, before.clone().chain([(&form, sign)]));
-        let possible = (0..3_u8).filter(|i| can(Sign::ALL[usize::from(*i)])).fold(0, |set, i| set | 1 << i);
-        // One always can, as the earlier answers could; all three if the arithmetic gave up.
-        let possible = LevelSet(if possible == 0 { 0b111 } else { possible });
-        let answer = self.answer(Question::Sign(form), possible, Some((a, b, leading.is_negative())));
-        Some(flip(Sign::ALL[usize::from(answer)]))
+        let mut key: Vec<(usize, u8)> = signs.chain([(form, 0)]).collect();
+        if let Some(known) = self.possible.get(&key) {
+            return *known;
+        }
+        let mut possible = LevelSet(0);
+        let last = key.len() - 1;
+        for sign in 0..Sign::ALL.len() as u8 {
+            key[last].1 = sign;
+            let signs = key.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+            if region::can_hold(self.program, signs) {
+                possible.0 |= 1 << sign;
+            }
+        }
+        // One of them always can, as the earlier answers could; this is for arithmetic that gave up before.
+        if possible.0 == 0 {
+            possible = LevelSet::all(Sign::ALL.len());
+        }
+        key[last].1 = 0;
+        self.possible.insert(key, possible);
+        possible
     }
 
     /// An expression with selections decided and images put in.
@@ -379,9 +443,9 @@ impl<'p> Machine<'p> {
 
     /// Whether the path is sure to be taken by some inputs: everything asked was linear in them.
     pub(super) fn certain(&self) -> bool {
-        self.choices.iter().all(|choice| match &choice.question {
+        self.choices.iter().all(|choice| match choice.question {
             Question::Level(_) => true,
-            Question::Sign(form) => form.terms.keys().all(|term| matches!(term, Term::Input(_))),
+            Question::Sign(form) => self.forms[form].terms.keys().all(|term| matches!(term, Term::Input(_))),
             Question::Compare(..) => false,
         })
     }

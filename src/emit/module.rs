@@ -283,7 +283,7 @@ impl Writer<'_, '_> {
         let discrete: Vec<String> = self.discrete().into_iter().map(|(name, _)| name).collect();
         let pack = format!("{}({})", self.dialect.global(&self.prefix, "pack"), discrete.join(", "));
         let rest: String =
-            [self.continuous(), site].concat().iter().map(|p| format!(", {}", pass(&[p.clone()]))).collect();
+            [self.continuous(), site].concat().iter().map(|p| format!(", {}", pass(std::slice::from_ref(p)))).collect();
         let functions = [
             ("The result, on a packed key.", key, &with_key, &value, format!("{key_case}({}).value", pass(&with_key))),
             (

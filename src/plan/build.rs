@@ -24,6 +24,9 @@ const MAX_BUFFER_KEYS: u32 = 24;
 type Result<T> = std::result::Result<T, String>;
 type Next<'a, 'p> = &'a dyn Fn(&mut Builder<'p>, &Knowledge) -> Result<StepId>;
 
+/// Rows that a state leaves open, with what is left of their guards.
+type OpenRows = Vec<(usize, CondId)>;
+
 struct Builder<'p> {
     program: &'p Program,
     pool: Pool,
@@ -56,8 +59,8 @@ pub(super) fn switch(program: &Program, shape: Shape) -> Result<Plan<'_>> {
         ));
     }
     let mut builder = Builder::new(program);
-    let mut arms: Vec<(Vec<(usize, CondId)>, Vec<LevelSet>)> = Vec::new();
-    let mut arm_index: HashMap<Vec<(usize, CondId)>, u16> = HashMap::new();
+    let mut arms: Vec<(OpenRows, Vec<LevelSet>)> = Vec::new();
+    let mut arm_index: HashMap<OpenRows, u16> = HashMap::new();
     let mut lookup = Vec::with_capacity(program.states.count());
     let mut levels = vec![0; program.inputs.len()];
     for state in 0..program.states.count() {
@@ -121,7 +124,7 @@ impl<'p> Builder<'p> {
     }
 
     /// The rows that can be taken in a state, with what is left of their guards.
-    fn rows_of_state(&mut self, levels: &[u8]) -> Vec<(usize, CondId)> {
+    fn rows_of_state(&mut self, levels: &[u8]) -> OpenRows {
         let program = self.program;
         let mut rows = Vec::new();
         let mut known = None;
