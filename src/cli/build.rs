@@ -77,7 +77,8 @@ fn one(
             Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
         return Err(Failure::new(program.source.clone(), error));
     }
-    let findings = crate::analyse::findings(&program);
+    // Notes are for `check`: here they would hide what was built.
+    let findings = crate::analyse::problems(&program);
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Failure { source: program.source.clone(), diagnostics: findings });
     }
