@@ -54,6 +54,8 @@ pub(super) fn claim(machine: &mut Machine<'_>, state: usize, guard: CondId) -> C
         if yes && no { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     match (yes, no) {
+        // What was not followed may go the other way.
+        _ if machine.gave_up() => Claim::Sometimes,
         (true, true) => Claim::Sometimes,
         (true, false) => Claim::Always,
         (false, _) => Claim::Never,

@@ -77,6 +77,11 @@ fn pair(
         example = Some(machine.describe());
         ControlFlow::Break(())
     });
+    // What was not followed may differ: then nothing is certain, and `Unique` is not proved.
+    let different = different || machine.gave_up();
+    if machine.gave_up() {
+        example.get_or_insert_with(|| machine.describe());
+    }
     let Some(example) = example else { return };
     let found = found.get_or_insert_with(|| Overlap {
         first,

@@ -73,6 +73,7 @@ pub(super) struct Machine<'p> {
     differences: HashMap<ExprId, Option<Difference>>,
     /// Signs that the last of some forms can have, given those of the others.
     possible: HashMap<Vec<(usize, u8)>, LevelSet>,
+    gave_up: bool,
 }
 
 /// What a difference of two numbers is.
@@ -98,22 +99,31 @@ impl<'p> Machine<'p> {
             form_index: HashMap::new(),
             differences: HashMap::new(),
             possible: HashMap::new(),
+            gave_up: false,
         }
     }
 
     /// Follows every path of a state, until told to stop. Returns whether it was.
+    /// A state with too many paths is given up; [`Self::gave_up`] tells.
     pub(super) fn any_path(&mut self, state: usize, mut path: impl FnMut(&mut Self) -> ControlFlow<()>) -> bool {
         self.program.states.write(state, &mut self.levels);
         self.choices.clear();
+        self.gave_up = false;
         for _ in 0..MAX_PATHS {
             if path(self).is_break() {
                 return true;
             }
             if !self.advance() {
-                break;
+                return false;
             }
         }
+        self.gave_up = true;
         false
+    }
+
+    /// Whether the last state had more paths than were followed.
+    pub(super) fn gave_up(&self) -> bool {
+        self.gave_up
     }
 
     fn advance(&mut self) -> bool {

@@ -10,6 +10,9 @@ use super::symbolic::{Machine, View};
 use crate::diag::{Diagnostic, codes};
 use crate::program::{Assumption, Program, Symmetry};
 
+/// Most states that the findings go through; each costs many paths.
+const MAX_STATES: usize = 1 << 16;
+
 /// A state in which a table does not have a symmetry.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Violation {
@@ -83,6 +86,11 @@ pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
 }
 
 fn finding(program: &Program, symmetry: &Symmetry) -> Option<Diagnostic> {
+    if program.states.count() > MAX_STATES {
+        let message = format!("the symmetry `{}` was not looked at", symmetry.name);
+        let reason = format!("the table has {} states, this analysis takes at most {MAX_STATES}", program.states.count());
+        return Some(Diagnostic::note(codes::SYMMETRY_BROKEN, message).at(symmetry.span, "").help(reason));
+    }
     let violations = violations(program, symmetry);
     let first = violations.first()?;
     let message = format!(
