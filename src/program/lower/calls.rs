@@ -15,6 +15,7 @@ impl Lowering<'_> {
         arguments: &[Expr],
         span: Span,
         env: &Env,
+        expected: Expected,
     ) -> Result<Term> {
         let name = function.value.as_str();
         let arity = |expected: usize| -> Result<()> {
@@ -36,8 +37,7 @@ impl Lowering<'_> {
             "select" => {
                 arity(3)?;
                 let condition = self.condition(&arguments[2], env)?;
-                let other = self.term(&arguments[0], env, Expected::Anything)?;
-                let then = self.term(&arguments[1], env, Expected::Anything)?;
+                let (other, then) = self.alternatives(&arguments[0], &arguments[1], env, expected)?;
                 return self.choose(condition, then, other, span);
             }
             _ => {}
@@ -148,14 +148,17 @@ impl Lowering<'_> {
         let Term::Vector(parts) = &value else {
             return Err(type_error(span, &self.describe(&value), "only vectors have components"));
         };
-        let pick =
-            |letter: char| "xyzw".find(letter).or_else(|| "rgba".find(letter)).and_then(|i| parts.get(i).copied());
-        let picked: Option<Vec<ExprId>> = letters.chars().map(pick).collect();
+        // All letters come from one of the two alphabets, as in every shading language.
+        let picked = ["xyzw", "rgba"].into_iter().find_map(|alphabet| {
+            let pick = |letter: char| alphabet.find(letter).and_then(|i| parts.get(i).copied());
+            letters.chars().map(pick).collect::<Option<Vec<ExprId>>>()
+        });
         match picked {
             Some(picked) if picked.len() == 1 => Ok(Term::Number(picked[0])),
             Some(picked) if (2..=4).contains(&picked.len()) => Ok(Term::Vector(picked)),
             _ => Err(Diagnostic::error(codes::TYPE, format!("`.{letters}` is not a component"))
-                .at(span, format!("of {}", self.describe(&value)))),
+                .at(span, format!("of {}", self.describe(&value)))
+                .help("components are one to four of `xyzw`, or of `rgba`, as far as the vector has them")),
         }
     }
 

@@ -112,7 +112,7 @@ impl<'t> Lowering<'t> {
         let mut codes_seen = HashMap::new();
         let mut names_seen = HashSet::new();
         for level in levels {
-            names::check_inner(&level.name.value, "a level", level.name.span)?;
+            names::check_level(&level.name.value, level.name.span)?;
             if !names_seen.insert(&level.name.value) {
                 return error(
                     codes::DUPLICATE,
@@ -212,6 +212,19 @@ impl<'t> Lowering<'t> {
         })
     }
 
+    /// A level set that a result can be of. A condition has no levels in an expression.
+    fn find_named_set(&self, name: &Spanned<String>) -> Result<SetId> {
+        match self.find_set(name)? {
+            SetId::BOOL => Err(Diagnostic::error(
+                codes::DOMAIN,
+                format!("`{}` is a condition, it has no levels", name.value),
+            )
+            .at(name.span, "expected named levels or integers")
+            .help("declare levels for the output under `levels`, for instance \"answer\": {\"no\": 0, \"yes\": 1}")),
+            set => Ok(set),
+        }
+    }
+
     pub(super) fn too_many_states(&self, product: f64) -> Diagnostic {
         let mut error = Diagnostic::error(
             codes::TOO_MANY_STATES,
@@ -240,11 +253,11 @@ impl<'t> Lowering<'t> {
             table::Output::Number(_) => Output::Number,
             table::Output::Vector(size, _) => Output::Vector(*size),
             table::Output::Enumeration(of) => {
-                self.output_set = self.find_set(of)?;
+                self.output_set = self.find_named_set(of)?;
                 Output::Enumeration(self.sets[self.output_set.0].clone())
             }
             table::Output::List { of, max } => {
-                self.output_set = self.find_set(of)?;
+                self.output_set = self.find_named_set(of)?;
                 Output::List { levels: self.sets[self.output_set.0].clone(), max: *max }
             }
         };

@@ -57,9 +57,15 @@ impl<'t> Lowering<'t> {
                 None => return Err(self.unknown_level(to_set, target, span)),
             }
         }
+        let mut seen = HashMap::new();
         for (old, _) in map {
-            if self.sets[from_set.0].find(&old.value).is_none() {
+            let Some(level) = self.sets[from_set.0].find(&old.value) else {
                 return Err(self.unknown_level(from_set, &old.value, old.span));
+            };
+            if let Some(first) = seen.insert(level, old.span) {
+                let message =
+                    format!("the level `{}` is renamed twice", self.sets[from_set.0].names[usize::from(level)]);
+                return Err(Diagnostic::error(codes::DUPLICATE, message).at(old.span, "again").at(first, "first here"));
             }
         }
         Ok(Term::Level(to_set, Arc::new(LevelTerm::Map(term, renaming.into()))))
@@ -89,7 +95,7 @@ impl<'t> Lowering<'t> {
             None => None,
             Some(expr) => {
                 let placeholder = self.pool.result();
-                Some(self.numeric(expr, &env.with_local("value", Term::Number(placeholder)))?)
+                Some(self.numeric(expr, &env.with_local(&value_name(expr), Term::Number(placeholder)))?)
             }
         };
         let (name, doc) = (symmetry.name.value.clone(), symmetry.doc.clone());
@@ -99,7 +105,7 @@ impl<'t> Lowering<'t> {
     /// Applies the result map of a symmetry.
     pub(super) fn apply_result(&mut self, map: &Expr, value: Term, env: &Env) -> Result<Term> {
         match value {
-            Term::Number(_) => Ok(Term::Number(self.numeric(map, &env.with_local("value", value))?)),
+            Term::Number(_) => Ok(Term::Number(self.numeric(map, &env.with_local(&value_name(map), value))?)),
             other => Err(type_error(map.span, &self.describe(&other), "only a single number can be mapped")),
         }
     }
@@ -110,4 +116,9 @@ impl<'t> Lowering<'t> {
         overrides.extend(images);
         Env { overrides: Arc::new(overrides), names: Rc::default(), ..env.clone() }
     }
+}
+
+/// What `result` calls the value that it maps.
+fn value_name(map: &Expr) -> Spanned<String> {
+    Spanned::new(map.span, "value".to_owned())
 }

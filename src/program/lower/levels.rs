@@ -28,32 +28,16 @@ pub enum LevelTerm {
 impl Lowering<'_> {
     pub(super) fn equality(&mut self, a: &Expr, b: &Expr, env: &Env) -> Result<CondId> {
         // A bare level name or code takes its meaning from the other side.
-        let is_known = match &a.kind {
-            ExprKind::Name(name) => matches!(name.as_str(), "true" | "false") || self.is_defined(name, env),
-            _ => true,
+        let swap = self.is_bare(a, env) && !self.is_bare(b, env);
+        let (known, other) = if swap { (b, a) } else { (a, b) };
+        let mut left = self.term(known, env, Expected::Anything)?;
+        let right = match &left {
+            Term::Level(set, _) => self.level_operand(*set, other, env)?,
+            _ => self.term(other, env, Expected::Anything)?,
         };
-        let (known, other) = if is_known { (a, b) } else { (b, a) };
-        let left = self.term(known, env, Expected::Anything)?;
-        if let Term::Level(set, term) = &left {
-            if let Some(level) = self.literal_level(*set, other, env)? {
-                return Ok(self.level_in(*set, term, LevelSet::one(level)));
-            }
-            let right = self.term(other, env, Expected::Level(*set))?;
-            let Term::Level(right_set, right_term) = &right else {
-                return Err(type_error(other.span, &self.describe(&right), "expected a level, as on the other side"));
-            };
-            if right_set != set {
-                return Err(type_error(other.span, &self.describe(&right), "the other side has other levels"));
-            }
-            let both: Vec<CondId> = (0..self.sets[set.0].count() as u8)
-                .map(|level| {
-                    let parts = [term, right_term].map(|t| self.level_in(*set, t, LevelSet::one(level)));
-                    self.pool.and(parts)
-                })
-                .collect();
-            return Ok(self.pool.or(both));
+        if let (Term::Number(_), Term::Level(set, _)) = (&left, &right) {
+            left = self.level_operand(*set, known, env)?;
         }
-        let right = self.term(other, env, Expected::Anything)?;
         match (&left, &right) {
             (Term::Number(a), Term::Number(b)) => Ok(self.pool.compare(Comparison::Equal, *a, *b)),
             (Term::Bool(a), Term::Bool(b)) => {
@@ -61,9 +45,95 @@ impl Lowering<'_> {
                 let not_b = self.pool.not(b);
                 Ok(self.pool.cond_if(a, b, not_b))
             }
+            (Term::Level(set, a), Term::Level(other_set, b)) if set == other_set => Ok(self.same_level(*set, a, b)),
+            (Term::Level(set, _), Term::Level(other_set, _)) => {
+                let error = type_error(other.span, &self.describe(&right), "the other side has other levels");
+                Err(self.unlike(error, *set, *other_set))
+            }
+            (Term::Level(..), _) => {
+                Err(type_error(other.span, &self.describe(&right), "expected a level, as on the other side"))
+            }
             _ => {
                 let message = format!("the other side of the comparison is {}", self.describe(&left));
                 Err(type_error(other.span, &self.describe(&right), &message))
+            }
+        }
+    }
+
+    /// The condition that two terms are the same level.
+    fn same_level(&mut self, set: SetId, a: &LevelTerm, b: &LevelTerm) -> CondId {
+        match (a, b) {
+            (term, LevelTerm::Const(level)) | (LevelTerm::Const(level), term) => {
+                self.level_in(set, term, LevelSet::one(*level))
+            }
+            _ => {
+                let levels = 0..self.sets[set.0].count() as u8;
+                let both: Vec<CondId> = levels
+                    .map(|level| {
+                        let parts = [a, b].map(|t| self.level_in(set, t, LevelSet::one(level)));
+                        self.pool.and(parts)
+                    })
+                    .collect();
+                self.pool.or(both)
+            }
+        }
+    }
+
+    /// Lowers an expression where a level of a set is expected; the name of a level wins.
+    fn level_operand(&mut self, set: SetId, expr: &Expr, env: &Env) -> Result<Term> {
+        match self.literal_level(set, expr, env)? {
+            Some(level) => Ok(Term::Level(set, Arc::new(LevelTerm::Const(level)))),
+            None => self.term(expr, env, Expected::Level(set)),
+        }
+    }
+
+    /// Lowers two alternatives. Where nothing else says of which set a bare level
+    /// or code is, the other alternative does.
+    pub(super) fn alternatives(&mut self, a: &Expr, b: &Expr, env: &Env, expected: Expected) -> Result<(Term, Term)> {
+        let swap = expected == Expected::Anything && self.is_bare(a, env) && !self.is_bare(b, env);
+        let (first, second) = if swap { (b, a) } else { (a, b) };
+        let mut first_term = self.term(first, env, expected)?;
+        let second_expected = match (&first_term, expected) {
+            (Term::Level(set, _), Expected::Anything) => Expected::Level(*set),
+            _ => expected,
+        };
+        let second_term = self.term(second, env, second_expected)?;
+        if let (Term::Number(_), Term::Level(set, _)) = (&first_term, &second_term) {
+            first_term = self.term(first, env, Expected::Level(*set))?;
+        }
+        Ok(if swap { (second_term, first_term) } else { (first_term, second_term) })
+    }
+
+    /// Whether an expression consists of names that mean nothing by themselves, as those of levels do.
+    fn is_bare(&self, expr: &Expr, env: &Env) -> bool {
+        match &expr.kind {
+            ExprKind::Name(name) => {
+                let base = name.rsplit_once('.').map_or(name.as_str(), |(base, _)| base);
+                !(matches!(name.as_str(), "true" | "false") || self.is_defined(name, env) || self.is_defined(base, env))
+            }
+            ExprKind::If(_, a, b) => self.is_bare(a, env) && self.is_bare(b, env),
+            ExprKind::Call(function, arguments) => match arguments.as_slice() {
+                [a, b, _] if function.value == "select" => self.is_bare(a, env) && self.is_bare(b, env),
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// Says how inputs come to have the same levels, if two sets look alike.
+    pub(super) fn unlike(&self, error: Diagnostic, a: SetId, b: SetId) -> Diagnostic {
+        let (first, second) = (&self.sets[a.0], &self.sets[b.0]);
+        if a == b || first.names != second.names || first.codes != second.codes {
+            return error;
+        }
+        let of =
+            |set: SetId| self.input_sets.iter().position(|s| *s == Some(set)).map(|i| self.inputs[i].name.as_str());
+        match (of(a.min(b)), of(a.max(b))) {
+            (Some(one), Some(two)) => error.help(format!(
+                "the levels look alike, but each list is a set of its own; declare `{two}` as `Levels(of: \"{one}\")`"
+            )),
+            _ => {
+                error.help("the levels look alike, but each list is a set of its own; share one with `Levels(of: ...)`")
             }
         }
     }

@@ -26,7 +26,7 @@ pub use levels::LevelTerm;
 type Result<T> = std::result::Result<T, Diagnostic>;
 
 /// Number of a level set.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 struct SetId(usize);
 
 impl SetId {

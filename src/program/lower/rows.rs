@@ -11,6 +11,7 @@ use super::scope::Env;
 use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::domain::Domain;
 use crate::program::pool::{CondId, ExprId, TernaryOp};
 use crate::program::{InputId, LevelTerm, Line, Output, Row};
 use crate::table::expr::Expr;
@@ -165,7 +166,11 @@ impl<'t> Lowering<'t> {
     /// Lowers an expression that replaces an input.
     pub(super) fn term_for_input(&mut self, input: InputId, value: &Expr, env: &Env) -> Result<Term> {
         match self.input_sets[input.index()] {
-            None => Ok(Term::Number(self.numeric(value, env)?)),
+            None => {
+                let number = self.numeric(value, env)?;
+                self.check_range(input, number, value.span, env)?;
+                Ok(Term::Number(number))
+            }
             Some(SetId::BOOL) => Ok(Term::Bool(self.condition(value, env)?)),
             Some(set) => {
                 if let Some(level) = self.literal_level(set, value, env)? {
@@ -173,9 +178,32 @@ impl<'t> Lowering<'t> {
                 }
                 match self.term(value, env, Expected::Level(set))? {
                     Term::Level(found, term) if found == set => Ok(Term::Level(set, term)),
-                    other => Err(type_error(value.span, &self.describe(&other), "this input has other levels")),
+                    other => {
+                        let error = type_error(value.span, &self.describe(&other), "this input has other levels");
+                        Err(match other {
+                            Term::Level(found, _) => self.unlike(error, set, found),
+                            _ => error,
+                        })
+                    }
                 }
             }
+        }
+    }
+
+    /// Refuses a constant that its input cannot be. What is constant only because
+    /// inputs are replaced may be out of reach there, so it is left alone.
+    fn check_range(&self, input: InputId, number: ExprId, span: Span, env: &Env) -> Result<()> {
+        let input = &self.inputs[input.index()];
+        match (&input.domain, self.pool.constant(number)) {
+            (Domain::Continuous { lo, hi, .. }, Some(value))
+                if env.overrides.is_empty() && !(*lo..=*hi).contains(&value) =>
+            {
+                let message = format!("{value} is not in the range {lo} to {hi} of `{}`", input.name);
+                Err(Diagnostic::error(codes::DOMAIN, message)
+                    .at(span, format!("replaces `{}`", input.name))
+                    .at(input.span, "declared here"))
+            }
+            _ => Ok(()),
         }
     }
 
@@ -193,18 +221,14 @@ impl<'t> Lowering<'t> {
         }
     }
 
-    /// Ties a value to the output: the components, clamped.
-    pub(super) fn result(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
+    /// Ties a value to the output: the components, not clamped yet.
+    pub(super) fn components(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
         let wrong = |found: &str, wanted: &str| {
             Err(Diagnostic::error(codes::TYPE, format!("the output is {wanted}, but this is {found}"))
                 .at(span, format!("this is {found}"))
                 .help("what the table returns is declared under `output`"))
         };
-        let clamp = match &self.table.output.value {
-            table::Output::Number(clamp) | table::Output::Vector(_, clamp) => *clamp,
-            _ => None,
-        };
-        let parts = match (&self.output, term) {
+        Ok(match (&self.output, term) {
             (Output::Number, Term::Number(number)) => vec![number],
             (Output::Vector(size), Term::Vector(parts)) if parts.len() == *size => parts,
             (Output::Enumeration(_), Term::Level(set, term)) if set == self.output_set => {
@@ -218,8 +242,21 @@ impl<'t> Lowering<'t> {
                 return wrong("something else", &format!("one of the levels {}", levels.names.join(", ")));
             }
             (Output::List { .. }, _) => return wrong("not a list", "a list, written [a, b]"),
-        };
-        Ok(match clamp {
+        })
+    }
+
+    /// The bounds that every component of a result is clamped to.
+    pub(super) fn clamp(&self) -> Option<(f64, f64)> {
+        match &self.table.output.value {
+            table::Output::Number(clamp) | table::Output::Vector(_, clamp) => *clamp,
+            table::Output::Enumeration(_) | table::Output::List { .. } => None,
+        }
+    }
+
+    /// Ties a value to the output: the components, clamped.
+    pub(super) fn result(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
+        let parts = self.components(term, span)?;
+        Ok(match self.clamp() {
             None => parts,
             Some((lo, hi)) => {
                 let (lo, hi) = (self.pool.number(lo), self.pool.number(hi));

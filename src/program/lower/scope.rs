@@ -11,8 +11,8 @@ use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::pool::LevelSet;
 use crate::program::{InputId, LevelTerm};
-use crate::table;
 use crate::table::expr::{Expr, ExprKind};
+use crate::table::{self, names};
 
 /// What names mean at some point.
 #[derive(Clone, Default)]
@@ -22,7 +22,7 @@ pub(super) struct Env {
     /// What named values became under these overrides.
     pub(super) names: Rc<RefCell<HashMap<usize, Term>>>,
     /// Names bound by `let`, innermost last.
-    pub(super) locals: Vec<(String, Term)>,
+    pub(super) locals: Vec<(Spanned<String>, Term)>,
     /// Which cases are being lowered, outermost first.
     pub(super) cases: Vec<u32>,
     /// Whether this is the value of a referenced case, where no further reference is allowed.
@@ -36,9 +36,9 @@ impl Env {
     }
 
     /// The same environment with one more name.
-    pub(super) fn with_local(&self, name: &str, term: Term) -> Self {
+    pub(super) fn with_local(&self, name: &Spanned<String>, term: Term) -> Self {
         let mut env = self.clone();
-        env.locals.push((name.to_owned(), term));
+        env.locals.push((name.clone(), term));
         env
     }
 }
@@ -70,7 +70,7 @@ impl Lowering<'_> {
     }
 
     pub(super) fn resolve(&mut self, name: &str, env: &Env) -> Result<Option<Term>> {
-        if let Some((_, term)) = env.locals.iter().rev().find(|(n, _)| n == name) {
+        if let Some((_, term)) = env.locals.iter().rev().find(|(local, _)| local.value == name) {
             return Ok(Some(term.clone()));
         }
         if let Some(input) = self.input_named(name) {
@@ -79,9 +79,29 @@ impl Lowering<'_> {
         self.named(name, env)
     }
 
+    /// Refuses local names that are malformed or that would hide something.
+    pub(super) fn check_local(&self, name: &Spanned<String>, env: &Env) -> Result<()> {
+        names::check(&name.value, "a local value", name.span)?;
+        if name.value.contains('.') {
+            return Err(Diagnostic::error(codes::BAD_NAME, "the name of a local value contains no dot")
+                .at(name.span, "dots group inputs"));
+        }
+        let locals = env.locals.iter().map(|(local, _)| (local, "a local value"));
+        let inputs = self.table.inputs.iter().map(|input| (&input.name, "an input"));
+        let named = self.table.names.iter().map(|named| (&named.name, "a named value"));
+        match locals.chain(inputs).chain(named).find(|(other, _)| names::identifier(&other.value) == name.value) {
+            None => Ok(()),
+            Some((first, what)) => {
+                Err(Diagnostic::error(codes::DUPLICATE, format!("the name `{}` is taken", name.value))
+                    .at(name.span, "a local value would hide it")
+                    .at(first.span, format!("first used for {what} here")))
+            }
+        }
+    }
+
     /// Whether a name stands for something by itself, as levels do not.
     pub(super) fn is_defined(&self, name: &str, env: &Env) -> bool {
-        env.locals.iter().any(|(local, _)| local == name)
+        env.locals.iter().any(|(local, _)| local.value == name)
             || self.input_named(name).is_some()
             || self.named_index.contains_key(name)
     }
@@ -150,7 +170,7 @@ impl Lowering<'_> {
     pub(super) fn unknown_name(&self, name: &str, span: Span, env: &Env) -> Diagnostic {
         let inputs = self.table.inputs.iter().map(|i| i.name.value.as_str());
         let names = self.table.names.iter().map(|n| n.name.value.as_str());
-        let locals = env.locals.iter().map(|(n, _)| n.as_str());
+        let locals = env.locals.iter().map(|(local, _)| local.value.as_str());
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{name}` is not defined")).at(span, "unknown name");
         if self.sets.iter().any(|set| set.names.iter().any(|n| n == name)) {
             return error.help(format!("`{name}` is a level: compare an input with it, as in `input == {name}`"));

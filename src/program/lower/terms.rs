@@ -99,7 +99,7 @@ impl Lowering<'_> {
             }
             ExprKind::Binary(op, a, b) => self.binary(*op, a, b, span, env),
             ExprKind::In(value, levels) => self.membership(value, levels, env),
-            ExprKind::Call(function, arguments) => self.call(function, arguments, span, env),
+            ExprKind::Call(function, arguments) => self.call(function, arguments, span, env, expected),
             ExprKind::Swizzle(value, letters) => {
                 let value = self.term(value, env, Expected::Anything)?;
                 self.swizzle(value, &letters.value, letters.span)
@@ -107,19 +107,14 @@ impl Lowering<'_> {
             ExprKind::Case(id, set) => self.case_value(id, set, env),
             ExprKind::If(condition, then, other) => {
                 let condition = self.condition(condition, env)?;
-                let then_term = self.term(then, env, expected)?;
-                let expected = match (&then_term, expected) {
-                    (Term::Level(set, _), Expected::Anything) => Expected::Level(*set),
-                    _ => expected,
-                };
-                let other_term = self.term(other, env, expected)?;
+                let (then_term, other_term) = self.alternatives(then, other, env, expected)?;
                 self.choose(condition, then_term, other_term, other.span)
             }
             ExprKind::Let(name, value, body) => {
-                crate::table::names::check(&name.value, "a local value", name.span)?;
+                self.check_local(name, env)?;
                 let term = self.term(value, env, Expected::Anything)?;
                 self.label(&term, &name.value);
-                self.term(body, &env.with_local(&name.value, term), expected)
+                self.term(body, &env.with_local(name, term), expected)
             }
             ExprKind::List(items) => match expected {
                 Expected::List(set, max) => self.list(items, set, max, span, env),
@@ -242,7 +237,11 @@ impl Lowering<'_> {
             }
             _ => {
                 let message = format!("the other side is {}", self.describe(&then));
-                Err(type_error(span, &self.describe(&other), &message))
+                let error = type_error(span, &self.describe(&other), &message);
+                Err(match (&then, &other) {
+                    (Term::Level(a, _), Term::Level(b, _)) => self.unlike(error, *a, *b),
+                    _ => error,
+                })
             }
         }
     }

@@ -79,6 +79,66 @@ fn levels_are_named_by_code_as_well() {
 }
 
 #[test]
+fn a_bare_level_takes_its_set_from_either_alternative() {
+    let guard = |condition: &str| {
+        let rest = format!("output: Number(), cases: [Case(id: 1, when: \"{condition}\", value: 1)]");
+        let program = check("", &rest).unwrap_or_else(|e| panic!("{condition}: {e}"));
+        Printer { pool: &program.pool, inputs: &program.inputs }.cond(program.rows[0].guard)
+    };
+    let same = [
+        "(if a { left } else { H }) == right",
+        "(if a { 0.5 } else { H }) == right",
+        "(if a { 0.5 } else { H }) == 0.25",
+        "right == (if a { left } else { H })",
+        "select(H, left, a) == right",
+        "(if a { if a { left } else { none } } else { H }) == right",
+        "select(H, select(none, left, a), a) in {right}",
+    ];
+    for condition in &same[..5] {
+        assert_eq!(guard(condition), guard(same[0]), "{condition}");
+    }
+    for condition in &same[5..] {
+        guard(condition);
+    }
+    assert_eq!(guard("0.5 == H"), guard("H == left"));
+    assert_eq!(guard("(if a { left } else { right }) == H"), guard("select(right, left, a) == H"));
+    guard("f32(if a { left } else { H }) < 0.5");
+    guard("(if a { 1 } else { x }) < 0.5");
+
+    let with = |value: &str| {
+        let rest = format!("output: Number(), cases: [Case(id: 1, when: \"a\", value: \"{value}\")]");
+        first_error(check("", &rest))
+    };
+    assert_eq!(with("f32(if a { lft } else { H })"), "there is no level `lft`");
+    assert_eq!(with("f32(if a { 7 } else { H })"), "there is no level `7`");
+    assert_eq!(with("f32(if a { left } else { right })"), "`left` is not defined");
+    assert_eq!(with("if a { left } else { x }"), "`left` is not defined");
+
+    let text = |value: &str| {
+        format!(
+            r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{"a": Bool(),
+                "H": Levels(values: {{"none": 0, "left": 0.5}})}}, output: Enumeration(of: "H"),
+                cases: [Case(id: 1, when: "a", value: "{value}")], default: none)"#
+        )
+    };
+    for value in ["select(left, none, a)", "select(H, 0.5, a)", "if a { select(none, H, a) } else { left }"] {
+        let program = Table::parse(Source::new("t", text(value))).and_then(|table| Program::check(&table));
+        assert!(program.is_ok(), "{value}: {}", first_error(program));
+    }
+}
+
+#[test]
+fn only_constants_as_written_are_held_against_a_range() {
+    // Case 3 is never evaluated where `2 * x` leaves the range, though the image makes it a constant.
+    let rest = r#"output: Number(), symmetries: {"m": Symmetry(map: {"x": "1"})}, cases: [
+        Case(id: 1, when: "n == 0", value: "x"),
+        Case(id: 2, when: "n == 1", value: "if x < 0.5 { case(1, x = 2 * x) } else { 0 }"),
+        Case(id: 3, is: (case: 2, under: "m"))]"#;
+    assert_eq!(first_error(check("", rest)), "none");
+    assert_eq!(first_error(check("", &rest.replace("2 * x", "2 * 1"))), "2 is not in the range 0 to 1 of `x`");
+}
+
+#[test]
 fn the_result_map_sees_the_replaced_inputs() {
     let rest = r#"output: Number(), symmetries: {"m": Symmetry(map: {"a": "!a"}, result: "value + x")}, cases: [
         Case(id: 1, when: "a", value: 1), Case(id: 2, is: (case: 1, under: "m")),
