@@ -88,34 +88,36 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
 /// directory and of the directories in it, sorted.
 ///
 /// # Errors
-/// When the path cannot be read or holds no table.
+/// When a directory cannot be read or holds no table.
 pub fn find_tables(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
     let mut found = Vec::new();
-    collect(path, &mut found, true)?;
-    found.sort();
+    let mut pending = vec![path.to_owned()];
+    while let Some(directory) = pending.pop() {
+        let unreadable = |error: std::io::Error| {
+            let message = format!("cannot be read: {}", io_reason(&error));
+            let diagnostic = Diagnostic::error(codes::UNREADABLE, message).help("check its permissions");
+            Failure::bare(shown(&directory), diagnostic)
+        };
+        for entry in std::fs::read_dir(&directory).map_err(unreadable)? {
+            let entry = entry.map_err(unreadable)?;
+            // Links to directories are not followed: they may form a circle.
+            if entry.file_type().map_err(unreadable)?.is_dir() {
+                pending.push(entry.path());
+            } else if entry.path().extension().is_some_and(|extension| extension == "ron") {
+                found.push(entry.path());
+            }
+        }
+    }
     if found.is_empty() {
-        let diagnostic = Diagnostic::error(codes::UNREADABLE, "contains no table")
-            .help("tables are files whose name ends in `.ron`");
+        let diagnostic =
+            Diagnostic::error(codes::UNREADABLE, "contains no tables").help("tables are files named *.ron");
         return Err(Failure::bare(shown(path), diagnostic));
     }
+    found.sort();
     Ok(found)
-}
-
-fn collect(path: &Path, found: &mut Vec<PathBuf>, named: bool) -> Result<(), Failure> {
-    let fail = |error: &std::io::Error| {
-        let message = format!("cannot be read: {}", io_reason(error));
-        let help = "check the path and its permissions";
-        Failure::bare(shown(path), Diagnostic::error(codes::UNREADABLE, message).help(help))
-    };
-    let metadata = std::fs::metadata(path).map_err(|e| fail(&e))?;
-    if metadata.is_dir() {
-        for entry in std::fs::read_dir(path).map_err(|e| fail(&e))? {
-            collect(&entry.map_err(|e| fail(&e))?.path(), found, false)?;
-        }
-    } else if named || path.extension().is_some_and(|extension| extension == "ron") {
-        found.push(path.to_owned());
-    }
-    Ok(())
 }
 
 /// A path as it is shown in messages.

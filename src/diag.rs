@@ -163,6 +163,7 @@ pub mod codes {
     pub const UNCOVERED: Code = Code("U0503");
     pub const DEAD_CASE: Code = Code("U0504");
     pub const UNUSED_INPUT: Code = Code("U0505");
+    pub const SYMMETRY_BROKEN: Code = Code("U0506");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");
@@ -256,7 +257,12 @@ impl Diagnostic {
             .with_labels_iter(labels)
             .with_notes(self.notes.clone());
         let file = SimpleFile::new(&source.name, &source.text);
-        let config = term::Config { chars: term::Chars::ascii(), ..term::Config::default() };
+        // A note is nothing to mend: its place is named, but no excerpt of the source shown.
+        let display_style = match self.severity {
+            Severity::Note => term::DisplayStyle::Medium,
+            Severity::Warning | Severity::Error => term::DisplayStyle::Rich,
+        };
+        let config = term::Config { chars: term::Chars::ascii(), display_style, ..term::Config::default() };
         match writer {
             Writer::Plain(out) => {
                 let text = term::emit_into_string(&config, &file, &shown).map_err(|_| fmt::Error)?;

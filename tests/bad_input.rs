@@ -35,6 +35,15 @@ const TABLE: &str = r#"Table(
 )
 "#;
 
+/// The facts worth knowing about it.
+const NOTES: &str = "\
+demo.ron:4:17: note[U0503]: no case claims 1 of the 6 states; they get the default
+ = these are the states with side = none, far = false
+demo.ron:15:9: note[U0506]: the table lacks the symmetry `turn` in 2 of the 6 states
+ = cases taken there and in the image: 1/2 (2)
+ = for instance side = left, far = true, x < 0.5, seen = true, x * 2 > 1 - x
+";
+
 const ROWS: &str = "side,far,x,seen\nleft,false,0.25,\n";
 
 /// What `check` says of the table after replacing a part of it. `eval` refuses
@@ -90,7 +99,9 @@ fn the_table_itself_is_fine() {
     let said = place.run("check demo.ron");
     assert_eq!(
         said.all(),
-        "exit code: 0\nstdout:\nok    demo.ron: 3 cases, 4 inputs (1 fetched), 6 states, 0 examples run\n"
+        format!(
+            "exit code: 0\nstdout:\nok    demo.ron: 3 cases, 4 inputs (1 fetched), 6 states, 0 examples run\nstderr:\n{NOTES}"
+        )
     );
     let said = place.run("eval demo.ron --input rows.csv");
     assert_eq!(said.all(), "exit code: 0\nstdout:\ncase,value\n1,0.5\n");

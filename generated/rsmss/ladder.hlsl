@@ -1012,8 +1012,9 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
     }
     bool _e1268 = local_53;
     if (_e1268) {
+        float u_2 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
         float F23_ = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
-        const RsmssResult rsmssresult_91 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? px : ((H_3 == RSMSS_H_RIGHT) ? (1.0 - px) : 1.0)) : F23_), 0.0, 1.0), 16u);
+        const RsmssResult rsmssresult_91 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u_2 : F23_), 0.0, 1.0), 16u);
         return rsmssresult_91;
     }
     if ((b_3 == RSMSS_B_ENTERING)) {
@@ -1022,39 +1023,40 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         } else {
             local_55 = true;
         }
-        bool _e1307 = local_55;
-        local_54 = _e1307;
+        bool _e1303 = local_55;
+        local_54 = _e1303;
     } else {
         local_54 = false;
     }
-    bool _e1309 = local_54;
-    if (_e1309) {
+    bool _e1305 = local_54;
+    if (_e1305) {
         if (!((V_3 == RSMSS_V_TOP))) {
             local_57 = (V_3 == RSMSS_V_BOTTOM);
         } else {
             local_57 = true;
         }
-        bool _e1320 = local_57;
-        local_56 = _e1320;
+        bool _e1316 = local_57;
+        local_56 = _e1316;
     } else {
         local_56 = false;
     }
-    bool _e1322 = local_56;
-    if (_e1322) {
+    bool _e1318 = local_56;
+    if (_e1318) {
         local_58 = domV_3;
     } else {
         local_58 = false;
     }
-    bool _e1326 = local_58;
-    if (_e1326) {
+    bool _e1322 = local_58;
+    if (_e1322) {
         local_59 = !(domH_3);
     } else {
         local_59 = false;
     }
-    bool _e1331 = local_59;
-    if (_e1331) {
+    bool _e1327 = local_59;
+    if (_e1327) {
+        float F20_ = ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py);
         float F22_ = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
-        const RsmssResult rsmssresult_92 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : ((V_3 == RSMSS_V_TOP) ? py : 1.0)) : F22_), 0.0, 1.0), 17u);
+        const RsmssResult rsmssresult_92 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_ : F22_), 0.0, 1.0), 17u);
         return rsmssresult_92;
     }
     if ((b_3 == RSMSS_B_ENTERING)) {
@@ -1063,37 +1065,37 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         } else {
             local_61 = true;
         }
-        bool _e1370 = local_61;
-        local_60 = _e1370;
+        bool _e1362 = local_61;
+        local_60 = _e1362;
     } else {
         local_60 = false;
     }
-    bool _e1372 = local_60;
-    if (_e1372) {
+    bool _e1364 = local_60;
+    if (_e1364) {
         if (!((V_3 == RSMSS_V_TOP))) {
             local_63 = (V_3 == RSMSS_V_BOTTOM);
         } else {
             local_63 = true;
         }
-        bool _e1383 = local_63;
-        local_62 = _e1383;
+        bool _e1375 = local_63;
+        local_62 = _e1375;
     } else {
         local_62 = false;
     }
-    bool _e1385 = local_62;
-    if (_e1385) {
+    bool _e1377 = local_62;
+    if (_e1377) {
         local_64 = !(domH_3);
     } else {
         local_64 = false;
     }
-    bool _e1390 = local_64;
-    if (_e1390) {
+    bool _e1382 = local_64;
+    if (_e1382) {
         local_65 = !(domV_3);
     } else {
         local_65 = false;
     }
-    bool _e1395 = local_65;
-    if (_e1395) {
+    bool _e1387 = local_65;
+    if (_e1387) {
         float F22_1 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
         const RsmssResult rsmssresult_93 = ConstructRsmssResult(clamp(F22_1, 0.0, 1.0), 18u);
         return rsmssresult_93;
@@ -1104,69 +1106,69 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         } else {
             local_67 = true;
         }
-        bool _e1422 = local_67;
-        local_66 = _e1422;
+        bool _e1414 = local_67;
+        local_66 = _e1414;
     } else {
         local_66 = false;
     }
-    bool _e1424 = local_66;
-    if (_e1424) {
+    bool _e1416 = local_66;
+    if (_e1416) {
         if (!((V_3 == RSMSS_V_TOP))) {
             local_69 = (V_3 == RSMSS_V_BOTTOM);
         } else {
             local_69 = true;
         }
-        bool _e1435 = local_69;
-        local_68 = _e1435;
+        bool _e1427 = local_69;
+        local_68 = _e1427;
     } else {
         local_68 = false;
     }
-    bool _e1437 = local_68;
-    if (_e1437) {
+    bool _e1429 = local_68;
+    if (_e1429) {
         local_70 = domH_3;
     } else {
         local_70 = false;
     }
-    bool _e1441 = local_70;
-    if (_e1441) {
+    bool _e1433 = local_70;
+    if (_e1433) {
         local_71 = domV_3;
     } else {
         local_71 = false;
     }
-    bool _e1445 = local_71;
-    if (_e1445) {
-        float u_2 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
+    bool _e1437 = local_71;
+    if (_e1437) {
+        float u_3 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
         float F23_1 = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
-        float F20_ = ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py);
+        float F20_1 = ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py);
         float F22_2 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
-        const RsmssResult rsmssresult_94 = ConstructRsmssResult(clamp(min(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u_2 : F23_1), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_ : F22_2)), 0.0, 1.0), 19u);
+        const RsmssResult rsmssresult_94 = ConstructRsmssResult(clamp(min(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u_3 : F23_1), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_1 : F22_2)), 0.0, 1.0), 19u);
         return rsmssresult_94;
     }
     if ((b_3 == RSMSS_B_ENTERING)) {
-        local_72 = !((H_3 == RSMSS_H_BOTH));
+        local_72 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_72 = false;
     }
-    bool _e1494 = local_72;
-    if (_e1494) {
-        local_73 = !((V_3 == RSMSS_V_BOTH));
+    bool _e1485 = local_72;
+    if (_e1485) {
+        local_73 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_73 = false;
     }
-    bool _e1501 = local_73;
-    if (_e1501) {
+    bool _e1491 = local_73;
+    if (_e1491) {
         local_74 = (tH_3 == RSMSS_TH_DUAL_POSITIVE);
     } else {
         local_74 = false;
     }
-    bool _e1507 = local_74;
-    if (_e1507) {
+    bool _e1497 = local_74;
+    if (_e1497) {
         local_75 = (tV_3 == RSMSS_TH_POSITIVE_NEGATIVE);
     } else {
         local_75 = false;
     }
-    bool _e1513 = local_75;
-    if (_e1513) {
+    bool _e1503 = local_75;
+    if (_e1503) {
         if ((V_3 == RSMSS_V_BOTTOM)) {
             const RsmssResult rsmssresult_95 = ConstructRsmssResult(clamp((1.0 - py), 0.0, 1.0), 20u);
             return rsmssresult_95;
@@ -1179,30 +1181,30 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         return rsmssresult_97;
     }
     if ((b_3 == RSMSS_B_ENTERING)) {
-        local_76 = !((H_3 == RSMSS_H_BOTH));
+        local_76 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_76 = false;
     }
-    bool _e1541 = local_76;
-    if (_e1541) {
-        local_77 = !((V_3 == RSMSS_V_BOTH));
+    bool _e1530 = local_76;
+    if (_e1530) {
+        local_77 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_77 = false;
     }
-    bool _e1548 = local_77;
-    if (_e1548) {
+    bool _e1536 = local_77;
+    if (_e1536) {
         local_78 = (tH_3 == RSMSS_TH_POSITIVE_NEGATIVE);
     } else {
         local_78 = false;
     }
-    bool _e1554 = local_78;
-    if (_e1554) {
+    bool _e1542 = local_78;
+    if (_e1542) {
         local_79 = (tV_3 == RSMSS_TH_DUAL_POSITIVE);
     } else {
         local_79 = false;
     }
-    bool _e1560 = local_79;
-    if (_e1560) {
+    bool _e1548 = local_79;
+    if (_e1548) {
         if ((H_3 == RSMSS_H_LEFT)) {
             const RsmssResult rsmssresult_98 = ConstructRsmssResult(clamp(px, 0.0, 1.0), 21u);
             return rsmssresult_98;
@@ -1215,59 +1217,59 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         return rsmssresult_100;
     }
     if ((b_3 == RSMSS_B_ENTERING)) {
-        local_80 = !((H_3 == RSMSS_H_BOTH));
+        local_80 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_80 = false;
     }
-    bool _e1588 = local_80;
-    if (_e1588) {
-        local_81 = !((V_3 == RSMSS_V_BOTH));
+    bool _e1575 = local_80;
+    if (_e1575) {
+        local_81 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_81 = false;
     }
-    bool _e1595 = local_81;
-    if (_e1595) {
+    bool _e1581 = local_81;
+    if (_e1581) {
         local_82 = (H_3 == RSMSS_H_NONE);
     } else {
         local_82 = false;
     }
-    bool _e1601 = local_82;
-    if (_e1601) {
-        local_83 = !((V_3 == RSMSS_V_NONE));
+    bool _e1587 = local_82;
+    if (_e1587) {
+        local_83 = (V_3 != RSMSS_V_NONE);
     } else {
         local_83 = false;
     }
-    bool _e1608 = local_83;
-    if (_e1608) {
+    bool _e1593 = local_83;
+    if (_e1593) {
         float F22_3 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
         const RsmssResult rsmssresult_101 = ConstructRsmssResult(clamp(F22_3, 0.0, 1.0), 22u);
         return rsmssresult_101;
     }
     if ((b_3 == RSMSS_B_ENTERING)) {
-        local_84 = !((H_3 == RSMSS_H_BOTH));
+        local_84 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_84 = false;
     }
-    bool _e1631 = local_84;
-    if (_e1631) {
-        local_85 = !((V_3 == RSMSS_V_BOTH));
+    bool _e1615 = local_84;
+    if (_e1615) {
+        local_85 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_85 = false;
     }
-    bool _e1638 = local_85;
-    if (_e1638) {
-        local_86 = !((H_3 == RSMSS_H_NONE));
+    bool _e1621 = local_85;
+    if (_e1621) {
+        local_86 = (H_3 != RSMSS_H_NONE);
     } else {
         local_86 = false;
     }
-    bool _e1645 = local_86;
-    if (_e1645) {
+    bool _e1627 = local_86;
+    if (_e1627) {
         local_87 = (V_3 == RSMSS_V_NONE);
     } else {
         local_87 = false;
     }
-    bool _e1651 = local_87;
-    if (_e1651) {
+    bool _e1633 = local_87;
+    if (_e1633) {
         float F23_2 = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
         const RsmssResult rsmssresult_102 = ConstructRsmssResult(clamp(F23_2, 0.0, 1.0), 23u);
         return rsmssresult_102;
@@ -1278,39 +1280,40 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         } else {
             local_89 = true;
         }
-        bool _e1678 = local_89;
-        local_88 = _e1678;
+        bool _e1660 = local_89;
+        local_88 = _e1660;
     } else {
         local_88 = false;
     }
-    bool _e1680 = local_88;
-    if (_e1680) {
+    bool _e1662 = local_88;
+    if (_e1662) {
         if (!((V_3 == RSMSS_V_TOP))) {
             local_91 = (V_3 == RSMSS_V_BOTTOM);
         } else {
             local_91 = true;
         }
-        bool _e1691 = local_91;
-        local_90 = _e1691;
+        bool _e1673 = local_91;
+        local_90 = _e1673;
     } else {
         local_90 = false;
     }
-    bool _e1693 = local_90;
-    if (_e1693) {
+    bool _e1675 = local_90;
+    if (_e1675) {
         local_92 = domH_3;
     } else {
         local_92 = false;
     }
-    bool _e1697 = local_92;
-    if (_e1697) {
+    bool _e1679 = local_92;
+    if (_e1679) {
         local_93 = !(domV_3);
     } else {
         local_93 = false;
     }
-    bool _e1702 = local_93;
-    if (_e1702) {
+    bool _e1684 = local_93;
+    if (_e1684) {
+        float F29_ = ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px);
         float F31_ = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
-        const RsmssResult rsmssresult_103 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : ((H_3 == RSMSS_H_RIGHT) ? px : 0.0)) : F31_), 0.0, 1.0), 24u);
+        const RsmssResult rsmssresult_103 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_), 0.0, 1.0), 24u);
         return rsmssresult_103;
     }
     if ((b_3 == RSMSS_B_EXITING)) {
@@ -1319,39 +1322,40 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         } else {
             local_95 = true;
         }
-        bool _e1739 = local_95;
-        local_94 = _e1739;
+        bool _e1717 = local_95;
+        local_94 = _e1717;
     } else {
         local_94 = false;
     }
-    bool _e1741 = local_94;
-    if (_e1741) {
+    bool _e1719 = local_94;
+    if (_e1719) {
         if (!((V_3 == RSMSS_V_TOP))) {
             local_97 = (V_3 == RSMSS_V_BOTTOM);
         } else {
             local_97 = true;
         }
-        bool _e1752 = local_97;
-        local_96 = _e1752;
+        bool _e1730 = local_97;
+        local_96 = _e1730;
     } else {
         local_96 = false;
     }
-    bool _e1754 = local_96;
-    if (_e1754) {
+    bool _e1732 = local_96;
+    if (_e1732) {
         local_98 = domV_3;
     } else {
         local_98 = false;
     }
-    bool _e1758 = local_98;
-    if (_e1758) {
+    bool _e1736 = local_98;
+    if (_e1736) {
         local_99 = !(domH_3);
     } else {
         local_99 = false;
     }
-    bool _e1763 = local_99;
-    if (_e1763) {
+    bool _e1741 = local_99;
+    if (_e1741) {
+        float F28_ = ((V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py));
         float F30_ = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
-        const RsmssResult rsmssresult_104 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? py : ((V_3 == RSMSS_V_TOP) ? (1.0 - py) : 0.0)) : F30_), 0.0, 1.0), 25u);
+        const RsmssResult rsmssresult_104 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_), 0.0, 1.0), 25u);
         return rsmssresult_104;
     }
     if ((b_3 == RSMSS_B_EXITING)) {
@@ -1360,37 +1364,37 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         } else {
             local_101 = true;
         }
-        bool _e1800 = local_101;
-        local_100 = _e1800;
+        bool _e1774 = local_101;
+        local_100 = _e1774;
     } else {
         local_100 = false;
     }
-    bool _e1802 = local_100;
-    if (_e1802) {
+    bool _e1776 = local_100;
+    if (_e1776) {
         if (!((V_3 == RSMSS_V_TOP))) {
             local_103 = (V_3 == RSMSS_V_BOTTOM);
         } else {
             local_103 = true;
         }
-        bool _e1813 = local_103;
-        local_102 = _e1813;
+        bool _e1787 = local_103;
+        local_102 = _e1787;
     } else {
         local_102 = false;
     }
-    bool _e1815 = local_102;
-    if (_e1815) {
+    bool _e1789 = local_102;
+    if (_e1789) {
         local_104 = !(domH_3);
     } else {
         local_104 = false;
     }
-    bool _e1820 = local_104;
-    if (_e1820) {
+    bool _e1794 = local_104;
+    if (_e1794) {
         local_105 = !(domV_3);
     } else {
         local_105 = false;
     }
-    bool _e1825 = local_105;
-    if (_e1825) {
+    bool _e1799 = local_105;
+    if (_e1799) {
         float F30_1 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
         const RsmssResult rsmssresult_105 = ConstructRsmssResult(clamp(F30_1, 0.0, 1.0), 26u);
         return rsmssresult_105;
@@ -1401,69 +1405,69 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         } else {
             local_107 = true;
         }
-        bool _e1850 = local_107;
-        local_106 = _e1850;
+        bool _e1824 = local_107;
+        local_106 = _e1824;
     } else {
         local_106 = false;
     }
-    bool _e1852 = local_106;
-    if (_e1852) {
+    bool _e1826 = local_106;
+    if (_e1826) {
         if (!((V_3 == RSMSS_V_TOP))) {
             local_109 = (V_3 == RSMSS_V_BOTTOM);
         } else {
             local_109 = true;
         }
-        bool _e1863 = local_109;
-        local_108 = _e1863;
+        bool _e1837 = local_109;
+        local_108 = _e1837;
     } else {
         local_108 = false;
     }
-    bool _e1865 = local_108;
-    if (_e1865) {
+    bool _e1839 = local_108;
+    if (_e1839) {
         local_110 = domH_3;
     } else {
         local_110 = false;
     }
-    bool _e1869 = local_110;
-    if (_e1869) {
+    bool _e1843 = local_110;
+    if (_e1843) {
         local_111 = domV_3;
     } else {
         local_111 = false;
     }
-    bool _e1873 = local_111;
-    if (_e1873) {
-        float F29_ = ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px);
+    bool _e1847 = local_111;
+    if (_e1847) {
+        float F29_1 = ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px);
         float F31_1 = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
-        float F28_ = ((V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py));
+        float F28_1 = ((V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py));
         float F30_2 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
-        const RsmssResult rsmssresult_106 = ConstructRsmssResult(clamp(max(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_1), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_2)), 0.0, 1.0), 27u);
+        const RsmssResult rsmssresult_106 = ConstructRsmssResult(clamp(max(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_1 : F31_1), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_1 : F30_2)), 0.0, 1.0), 27u);
         return rsmssresult_106;
     }
     if ((b_3 == RSMSS_B_EXITING)) {
-        local_112 = !((H_3 == RSMSS_H_BOTH));
+        local_112 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_112 = false;
     }
-    bool _e1918 = local_112;
-    if (_e1918) {
-        local_113 = !((V_3 == RSMSS_V_BOTH));
+    bool _e1891 = local_112;
+    if (_e1891) {
+        local_113 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_113 = false;
     }
-    bool _e1925 = local_113;
-    if (_e1925) {
+    bool _e1897 = local_113;
+    if (_e1897) {
         local_114 = (tH_3 == RSMSS_TH_DUAL_POSITIVE);
     } else {
         local_114 = false;
     }
-    bool _e1931 = local_114;
-    if (_e1931) {
+    bool _e1903 = local_114;
+    if (_e1903) {
         local_115 = (tV_3 == RSMSS_TH_POSITIVE_NEGATIVE);
     } else {
         local_115 = false;
     }
-    bool _e1937 = local_115;
-    if (_e1937) {
+    bool _e1909 = local_115;
+    if (_e1909) {
         if ((V_3 == RSMSS_V_BOTTOM)) {
             const RsmssResult rsmssresult_107 = ConstructRsmssResult(clamp(py, 0.0, 1.0), 28u);
             return rsmssresult_107;
@@ -1476,30 +1480,30 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         return rsmssresult_109;
     }
     if ((b_3 == RSMSS_B_EXITING)) {
-        local_116 = !((H_3 == RSMSS_H_BOTH));
+        local_116 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_116 = false;
     }
-    bool _e1965 = local_116;
-    if (_e1965) {
-        local_117 = !((V_3 == RSMSS_V_BOTH));
+    bool _e1936 = local_116;
+    if (_e1936) {
+        local_117 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_117 = false;
     }
-    bool _e1972 = local_117;
-    if (_e1972) {
+    bool _e1942 = local_117;
+    if (_e1942) {
         local_118 = (tH_3 == RSMSS_TH_POSITIVE_NEGATIVE);
     } else {
         local_118 = false;
     }
-    bool _e1978 = local_118;
-    if (_e1978) {
+    bool _e1948 = local_118;
+    if (_e1948) {
         local_119 = (tV_3 == RSMSS_TH_DUAL_POSITIVE);
     } else {
         local_119 = false;
     }
-    bool _e1984 = local_119;
-    if (_e1984) {
+    bool _e1954 = local_119;
+    if (_e1954) {
         if ((H_3 == RSMSS_H_LEFT)) {
             const RsmssResult rsmssresult_110 = ConstructRsmssResult(clamp((1.0 - px), 0.0, 1.0), 29u);
             return rsmssresult_110;
@@ -1512,59 +1516,59 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         return rsmssresult_112;
     }
     if ((b_3 == RSMSS_B_EXITING)) {
-        local_120 = !((H_3 == RSMSS_H_BOTH));
+        local_120 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_120 = false;
     }
-    bool _e2012 = local_120;
-    if (_e2012) {
-        local_121 = !((V_3 == RSMSS_V_BOTH));
+    bool _e1981 = local_120;
+    if (_e1981) {
+        local_121 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_121 = false;
     }
-    bool _e2019 = local_121;
-    if (_e2019) {
+    bool _e1987 = local_121;
+    if (_e1987) {
         local_122 = (H_3 == RSMSS_H_NONE);
     } else {
         local_122 = false;
     }
-    bool _e2025 = local_122;
-    if (_e2025) {
-        local_123 = !((V_3 == RSMSS_V_NONE));
+    bool _e1993 = local_122;
+    if (_e1993) {
+        local_123 = (V_3 != RSMSS_V_NONE);
     } else {
         local_123 = false;
     }
-    bool _e2032 = local_123;
-    if (_e2032) {
+    bool _e1999 = local_123;
+    if (_e1999) {
         float F30_3 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
         const RsmssResult rsmssresult_113 = ConstructRsmssResult(clamp(F30_3, 0.0, 1.0), 30u);
         return rsmssresult_113;
     }
     if ((b_3 == RSMSS_B_EXITING)) {
-        local_124 = !((H_3 == RSMSS_H_BOTH));
+        local_124 = (H_3 != RSMSS_H_BOTH);
     } else {
         local_124 = false;
     }
-    bool _e2053 = local_124;
-    if (_e2053) {
-        local_125 = !((V_3 == RSMSS_V_BOTH));
+    bool _e2019 = local_124;
+    if (_e2019) {
+        local_125 = (V_3 != RSMSS_V_BOTH);
     } else {
         local_125 = false;
     }
-    bool _e2060 = local_125;
-    if (_e2060) {
-        local_126 = !((H_3 == RSMSS_H_NONE));
+    bool _e2025 = local_125;
+    if (_e2025) {
+        local_126 = (H_3 != RSMSS_H_NONE);
     } else {
         local_126 = false;
     }
-    bool _e2067 = local_126;
-    if (_e2067) {
+    bool _e2031 = local_126;
+    if (_e2031) {
         local_127 = (V_3 == RSMSS_V_NONE);
     } else {
         local_127 = false;
     }
-    bool _e2073 = local_127;
-    if (_e2073) {
+    bool _e2037 = local_127;
+    if (_e2037) {
         float F31_2 = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
         const RsmssResult rsmssresult_114 = ConstructRsmssResult(clamp(F31_2, 0.0, 1.0), 31u);
         return rsmssresult_114;

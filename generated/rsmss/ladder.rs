@@ -5,7 +5,7 @@
 // Plan:   ladder
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
 
-#[allow(non_snake_case, clippy::all, dead_code, unused_variables)]
+#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]
 #[rustfmt::skip]
 pub mod rsmss {
 /// Produces fetched inputs on demand; levels as their index.
@@ -108,7 +108,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
                 // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:165)
                 return RsmssResult { value: f32::min(f32::max(py - px, 0.0), 1.0), case_id: 4 };
             }
-            // case 4, no line applies: default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
+            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
             return RsmssResult { value: 1.0, case_id: 4 };
         }
         let n_bottom: u32 = site.n_bottom();
@@ -128,7 +128,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:167)
             return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 4 };
         }
-        // case 4, no line applies: default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
+        // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
         return RsmssResult { value: 1.0, case_id: 4 };
     }
     if (b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && (tV == RSMSS_TH_DUAL_POSITIVE) {
@@ -146,7 +146,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
                 // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:181)
                 return RsmssResult { value: f32::min(f32::max(py - px, 0.0), 1.0), case_id: 5 };
             }
-            // case 5, no line applies: default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
+            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
             return RsmssResult { value: 1.0, case_id: 5 };
         }
         let n_top: u32 = site.n_top();
@@ -162,7 +162,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:183)
             return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 5 };
         }
-        // case 5, no line applies: default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
+        // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
         return RsmssResult { value: 1.0, case_id: 5 };
     }
     if (b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (tH == RSMSS_TH_DUAL_POSITIVE) {
@@ -181,7 +181,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
                 // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:197)
                 return RsmssResult { value: f32::min(f32::max(px - py, 0.0), 1.0), case_id: 6 };
             }
-            // case 6, no line applies: default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
+            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
             return RsmssResult { value: 1.0, case_id: 6 };
         }
         let n_right: u32 = site.n_right();
@@ -201,7 +201,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:198)
             return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 6 };
         }
-        // case 6, no line applies: default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
+        // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
         return RsmssResult { value: 1.0, case_id: 6 };
     }
     if (b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && (tH == RSMSS_TH_DUAL_POSITIVE) {
@@ -219,7 +219,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
                 // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:212)
                 return RsmssResult { value: f32::min(f32::max(px - py, 0.0), 1.0), case_id: 7 };
             }
-            // case 7, no line applies: default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
+            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
             return RsmssResult { value: 1.0, case_id: 7 };
         }
         let n_left: u32 = site.n_left();
@@ -235,7 +235,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:213)
             return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 7 };
         }
-        // case 7, no line applies: default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
+        // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
         return RsmssResult { value: 1.0, case_id: 7 };
     }
     if (b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && (tV == RSMSS_TH_POSITIVE_NEGATIVE) {
@@ -254,7 +254,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             let w: f32 = if V == RSMSS_V_TOP { py } else { 1.0 - py };
             return RsmssResult { value: f32::min(f32::max(f32::min(w, (1.0 + px) - dV), 0.0), 1.0), case_id: 8 };
         }
-        // case 8, no line applies: default: the tip of a vertical gap (section 3, case 8; rsmss.ron:222)
+        // case 8, no line applies, so the default: the tip of a vertical gap (section 3, case 8; rsmss.ron:222)
         return RsmssResult { value: 1.0, case_id: 8 };
     }
     if (b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && (V == RSMSS_V_NONE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE) {
@@ -276,7 +276,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:240)
             return RsmssResult { value: f32::min(f32::max((2.0 - px) - dV, 0.0), 1.0), case_id: 9 };
         }
-        // case 9, no line applies: default: inside a vertical gap (section 3, case 9; rsmss.ron:235)
+        // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:235)
         return RsmssResult { value: 1.0, case_id: 9 };
     }
     if (b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) {
@@ -295,7 +295,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             let u: f32 = if H == RSMSS_H_LEFT { px } else { 1.0 - px };
             return RsmssResult { value: f32::min(f32::max(f32::min(u, (2.0 - py) - dH), 0.0), 1.0), case_id: 10 };
         }
-        // case 10, no line applies: default: the tip of a horizontal gap (section 3, case 10; rsmss.ron:248)
+        // case 10, no line applies, so the default: the tip of a horizontal gap (section 3, case 10; rsmss.ron:248)
         return RsmssResult { value: 1.0, case_id: 10 };
     }
     if (b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) {
@@ -317,7 +317,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:263)
             return RsmssResult { value: f32::min(f32::max((2.0 - py) - dH, 0.0), 1.0), case_id: 11 };
         }
-        // case 11, no line applies: default: inside a horizontal gap (section 3, case 11; rsmss.ron:258)
+        // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:258)
         return RsmssResult { value: 1.0, case_id: 11 };
     }
     if (b == RSMSS_B_EXITING) && (H == RSMSS_H_BOTH) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) {
@@ -350,7 +350,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
                 // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:282)
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - py, px), 0.0), 1.0), case_id: 12 };
             }
-            // case 12, no line applies: default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
+            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
             return RsmssResult { value: 0.0, case_id: 12 };
         }
         let n_top: u32 = site.n_top();
@@ -381,7 +381,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:282)
             return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - py), px), 0.0), 1.0), case_id: 12 };
         }
-        // case 12, no line applies: default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
+        // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
         return RsmssResult { value: 0.0, case_id: 12 };
     }
     if (b == RSMSS_B_EXITING) && (H == RSMSS_H_BOTH) && (V == RSMSS_V_NONE) {
@@ -400,7 +400,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             let B_h: f32 = if tV == RSMSS_TH_DUAL_POSITIVE { px } else { (dV + px) - 1.0 };
             return RsmssResult { value: f32::min(f32::max(B_h, 0.0), 1.0), case_id: 13 };
         }
-        // case 13, no line applies: default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:287)
+        // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:287)
         return RsmssResult { value: 0.0, case_id: 13 };
     }
     if (b == RSMSS_B_EXITING) && (V == RSMSS_V_BOTH) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) {
@@ -433,7 +433,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
                 // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:304)
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - px, py), 0.0), 1.0), case_id: 14 };
             }
-            // case 14, no line applies: default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
+            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
             return RsmssResult { value: 0.0, case_id: 14 };
         }
         let n_left: u32 = site.n_left();
@@ -464,7 +464,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:304)
             return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - px), py), 0.0), 1.0), case_id: 14 };
         }
-        // case 14, no line applies: default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
+        // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
         return RsmssResult { value: 0.0, case_id: 14 };
     }
     if (b == RSMSS_B_EXITING) && (V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE) {
@@ -483,20 +483,22 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             let B_v: f32 = if tH == RSMSS_TH_DUAL_POSITIVE { py } else { (dH + py) - 1.0 };
             return RsmssResult { value: f32::min(f32::max(B_v, 0.0), 1.0), case_id: 15 };
         }
-        // case 15, no line applies: default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:309)
+        // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:309)
         return RsmssResult { value: 0.0, case_id: 15 };
     }
-    if (b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && !(domV) {
+    if (b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && !domV {
         // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:322)
+        let u: f32 = if H == RSMSS_H_LEFT { px } else { 1.0 - px };
         let F23: f32 = if H == RSMSS_H_LEFT { (1.0 + px) - dV } else { (2.0 - px) - dV };
-        return RsmssResult { value: f32::min(f32::max(if tV == RSMSS_TH_DUAL_POSITIVE { if H == RSMSS_H_LEFT { px } else { if H == RSMSS_H_RIGHT { 1.0 - px } else { 1.0 } } } else { F23 }, 0.0), 1.0), case_id: 16 };
+        return RsmssResult { value: f32::min(f32::max(if tV == RSMSS_TH_DUAL_POSITIVE { u } else { F23 }, 0.0), 1.0), case_id: 16 };
     }
-    if (b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domV && !(domH) {
+    if (b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domV && !domH {
         // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:328)
+        let F20: f32 = if V == RSMSS_V_BOTTOM { 1.0 - py } else { py };
         let F22: f32 = if V == RSMSS_V_BOTTOM { (2.0 - py) - dH } else { (1.0 + py) - dH };
-        return RsmssResult { value: f32::min(f32::max(if tH == RSMSS_TH_DUAL_POSITIVE { if V == RSMSS_V_BOTTOM { 1.0 - py } else { if V == RSMSS_V_TOP { py } else { 1.0 } } } else { F22 }, 0.0), 1.0), case_id: 17 };
+        return RsmssResult { value: f32::min(f32::max(if tH == RSMSS_TH_DUAL_POSITIVE { F20 } else { F22 }, 0.0), 1.0), case_id: 17 };
     }
-    if (b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && !(domH) && !(domV) {
+    if (b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && !domH && !domV {
         // case 18: lone corner (section 3, case 18; rsmss.ron:334)
         let F22: f32 = if V == RSMSS_V_BOTTOM { (2.0 - py) - dH } else { (1.0 + py) - dH };
         return RsmssResult { value: f32::min(f32::max(F22, 0.0), 1.0), case_id: 18 };
@@ -509,7 +511,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
         let F22: f32 = if V == RSMSS_V_BOTTOM { (2.0 - py) - dH } else { (1.0 + py) - dH };
         return RsmssResult { value: f32::min(f32::max(f32::min(if tV == RSMSS_TH_DUAL_POSITIVE { u } else { F23 }, if tH == RSMSS_TH_DUAL_POSITIVE { F20 } else { F22 }), 0.0), 1.0), case_id: 19 };
     }
-    if (b == RSMSS_B_ENTERING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && (tH == RSMSS_TH_DUAL_POSITIVE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE) {
+    if (b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_DUAL_POSITIVE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE) {
         if V == RSMSS_V_BOTTOM {
             // case 20, line 1: dual positive horizontal edge (section 3, case 20; rsmss.ron:344)
             return RsmssResult { value: f32::min(f32::max(1.0 - py, 0.0), 1.0), case_id: 20 };
@@ -518,10 +520,10 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:344)
             return RsmssResult { value: f32::min(f32::max(py, 0.0), 1.0), case_id: 20 };
         }
-        // case 20, no line applies: default: dual positive horizontal edge (section 3, case 20; rsmss.ron:342)
+        // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:342)
         return RsmssResult { value: 1.0, case_id: 20 };
     }
-    if (b == RSMSS_B_ENTERING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) && (tV == RSMSS_TH_DUAL_POSITIVE) {
+    if (b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) && (tV == RSMSS_TH_DUAL_POSITIVE) {
         if H == RSMSS_H_LEFT {
             // case 21, line 1: dual positive vertical edge (section 3, case 21; rsmss.ron:349)
             return RsmssResult { value: f32::min(f32::max(px, 0.0), 1.0), case_id: 21 };
@@ -530,30 +532,32 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:349)
             return RsmssResult { value: f32::min(f32::max(1.0 - px, 0.0), 1.0), case_id: 21 };
         }
-        // case 21, no line applies: default: dual positive vertical edge (section 3, case 21; rsmss.ron:347)
+        // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:347)
         return RsmssResult { value: 1.0, case_id: 21 };
     }
-    if (b == RSMSS_B_ENTERING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && !(V == RSMSS_V_NONE) {
+    if (b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (V != RSMSS_V_NONE) {
         // case 22: horizontal edge (section 3, case 22; rsmss.ron:354)
         let F22: f32 = if V == RSMSS_V_BOTTOM { (2.0 - py) - dH } else { (1.0 + py) - dH };
         return RsmssResult { value: f32::min(f32::max(F22, 0.0), 1.0), case_id: 22 };
     }
-    if (b == RSMSS_B_ENTERING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && !(H == RSMSS_H_NONE) && (V == RSMSS_V_NONE) {
+    if (b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H != RSMSS_H_NONE) && (V == RSMSS_V_NONE) {
         // case 23: vertical edge (section 3, case 23; rsmss.ron:358)
         let F23: f32 = if H == RSMSS_H_LEFT { (1.0 + px) - dV } else { (2.0 - px) - dV };
         return RsmssResult { value: f32::min(f32::max(F23, 0.0), 1.0), case_id: 23 };
     }
-    if (b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && !(domV) {
+    if (b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && !domV {
         // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:364)
+        let F29: f32 = if H == RSMSS_H_LEFT { 1.0 - px } else { px };
         let F31: f32 = if H == RSMSS_H_LEFT { dV - px } else { (px + dV) - 1.0 };
-        return RsmssResult { value: f32::min(f32::max(if tV == RSMSS_TH_DUAL_POSITIVE { if H == RSMSS_H_LEFT { 1.0 - px } else { if H == RSMSS_H_RIGHT { px } else { 0.0 } } } else { F31 }, 0.0), 1.0), case_id: 24 };
+        return RsmssResult { value: f32::min(f32::max(if tV == RSMSS_TH_DUAL_POSITIVE { F29 } else { F31 }, 0.0), 1.0), case_id: 24 };
     }
-    if (b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domV && !(domH) {
+    if (b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domV && !domH {
         // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:373)
+        let F28: f32 = if V == RSMSS_V_BOTTOM { py } else { 1.0 - py };
         let F30: f32 = if V == RSMSS_V_BOTTOM { (py + dH) - 1.0 } else { dH - py };
-        return RsmssResult { value: f32::min(f32::max(if tH == RSMSS_TH_DUAL_POSITIVE { if V == RSMSS_V_BOTTOM { py } else { if V == RSMSS_V_TOP { 1.0 - py } else { 0.0 } } } else { F30 }, 0.0), 1.0), case_id: 25 };
+        return RsmssResult { value: f32::min(f32::max(if tH == RSMSS_TH_DUAL_POSITIVE { F28 } else { F30 }, 0.0), 1.0), case_id: 25 };
     }
-    if (b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && !(domH) && !(domV) {
+    if (b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && !domH && !domV {
         // case 26: lone corner (section 3, case 26; rsmss.ron:382)
         let F30: f32 = if V == RSMSS_V_BOTTOM { (py + dH) - 1.0 } else { dH - py };
         return RsmssResult { value: f32::min(f32::max(F30, 0.0), 1.0), case_id: 26 };
@@ -566,7 +570,7 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
         let F30: f32 = if V == RSMSS_V_BOTTOM { (py + dH) - 1.0 } else { dH - py };
         return RsmssResult { value: f32::min(f32::max(f32::max(if tV == RSMSS_TH_DUAL_POSITIVE { F29 } else { F31 }, if tH == RSMSS_TH_DUAL_POSITIVE { F28 } else { F30 }), 0.0), 1.0), case_id: 27 };
     }
-    if (b == RSMSS_B_EXITING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && (tH == RSMSS_TH_DUAL_POSITIVE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE) {
+    if (b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_DUAL_POSITIVE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE) {
         if V == RSMSS_V_BOTTOM {
             // case 28, line 1: dual positive horizontal edge (section 3, case 28; rsmss.ron:392)
             return RsmssResult { value: f32::min(f32::max(py, 0.0), 1.0), case_id: 28 };
@@ -575,10 +579,10 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:392)
             return RsmssResult { value: f32::min(f32::max(1.0 - py, 0.0), 1.0), case_id: 28 };
         }
-        // case 28, no line applies: default: dual positive horizontal edge (section 3, case 28; rsmss.ron:390)
+        // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:390)
         return RsmssResult { value: 0.0, case_id: 28 };
     }
-    if (b == RSMSS_B_EXITING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) && (tV == RSMSS_TH_DUAL_POSITIVE) {
+    if (b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) && (tV == RSMSS_TH_DUAL_POSITIVE) {
         if H == RSMSS_H_LEFT {
             // case 29, line 1: dual positive vertical edge (section 3, case 29; rsmss.ron:398)
             return RsmssResult { value: f32::min(f32::max(1.0 - px, 0.0), 1.0), case_id: 29 };
@@ -587,15 +591,15 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:398)
             return RsmssResult { value: f32::min(f32::max(px, 0.0), 1.0), case_id: 29 };
         }
-        // case 29, no line applies: default: dual positive vertical edge (section 3, case 29; rsmss.ron:396)
+        // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:396)
         return RsmssResult { value: 0.0, case_id: 29 };
     }
-    if (b == RSMSS_B_EXITING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && !(V == RSMSS_V_NONE) {
+    if (b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (V != RSMSS_V_NONE) {
         // case 30: horizontal edge (section 3, case 30; rsmss.ron:403)
         let F30: f32 = if V == RSMSS_V_BOTTOM { (py + dH) - 1.0 } else { dH - py };
         return RsmssResult { value: f32::min(f32::max(F30, 0.0), 1.0), case_id: 30 };
     }
-    if (b == RSMSS_B_EXITING) && !(H == RSMSS_H_BOTH) && !(V == RSMSS_V_BOTH) && !(H == RSMSS_H_NONE) && (V == RSMSS_V_NONE) {
+    if (b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H != RSMSS_H_NONE) && (V == RSMSS_V_NONE) {
         // case 31: vertical edge (section 3, case 31; rsmss.ron:407)
         let F31: f32 = if H == RSMSS_H_LEFT { dV - px } else { (px + dV) - 1.0 };
         return RsmssResult { value: f32::min(f32::max(F31, 0.0), 1.0), case_id: 31 };

@@ -143,7 +143,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:349)
                 return RsmssResult(clamp(1.0 - px, 0.0, 1.0), 21u);
             }
-            // case 21, no line applies: default: dual positive vertical edge (section 3, case 21; rsmss.ron:347)
+            // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:347)
             return RsmssResult(1.0, 21u);
         }
         case 3u: {
@@ -155,7 +155,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:344)
                 return RsmssResult(clamp(py, 0.0, 1.0), 20u);
             }
-            // case 20, no line applies: default: dual positive horizontal edge (section 3, case 20; rsmss.ron:342)
+            // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:342)
             return RsmssResult(1.0, 20u);
         }
         case 4u: {
@@ -167,7 +167,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:398)
                 return RsmssResult(clamp(px, 0.0, 1.0), 29u);
             }
-            // case 29, no line applies: default: dual positive vertical edge (section 3, case 29; rsmss.ron:396)
+            // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:396)
             return RsmssResult(0.0, 29u);
         }
         case 5u: {
@@ -179,7 +179,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:392)
                 return RsmssResult(clamp(1.0 - py, 0.0, 1.0), 28u);
             }
-            // case 28, no line applies: default: dual positive horizontal edge (section 3, case 28; rsmss.ron:390)
+            // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:390)
             return RsmssResult(0.0, 28u);
         }
         case 6u: {
@@ -211,7 +211,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:263)
                 return RsmssResult(clamp((2.0 - py) - dH, 0.0, 1.0), 11u);
             }
-            // case 11, no line applies: default: inside a horizontal gap (section 3, case 11; rsmss.ron:258)
+            // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:258)
             return RsmssResult(1.0, 11u);
         }
         case 9u: {
@@ -230,7 +230,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                     // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:197)
                     return RsmssResult(clamp(px - py, 0.0, 1.0), 6u);
                 }
-                // case 6, no line applies: default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
+                // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
                 return RsmssResult(1.0, 6u);
             }
             uint n_right = rsmss_fetch_n_right(site);
@@ -250,7 +250,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:198)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 6u);
             }
-            // case 6, no line applies: default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
+            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:191)
             return RsmssResult(1.0, 6u);
         }
         case 10u: {
@@ -269,7 +269,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 float B_v = tH == RSMSS_TH_DUAL_POSITIVE ? py : (dH + py) - 1.0;
                 return RsmssResult(clamp(B_v, 0.0, 1.0), 15u);
             }
-            // case 15, no line applies: default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:309)
+            // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:309)
             return RsmssResult(0.0, 15u);
         }
         case 11u: {
@@ -289,13 +289,15 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         }
         case 14u: {
             // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:328)
+            float F20 = V == RSMSS_V_BOTTOM ? 1.0 - py : py;
             float F22 = V == RSMSS_V_BOTTOM ? (2.0 - py) - dH : (1.0 + py) - dH;
-            return RsmssResult(clamp(tH == RSMSS_TH_DUAL_POSITIVE ? V == RSMSS_V_BOTTOM ? 1.0 - py : V == RSMSS_V_TOP ? py : 1.0 : F22, 0.0, 1.0), 17u);
+            return RsmssResult(clamp(tH == RSMSS_TH_DUAL_POSITIVE ? F20 : F22, 0.0, 1.0), 17u);
         }
         case 15u: {
             // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:322)
+            float u = H == RSMSS_H_LEFT ? px : 1.0 - px;
             float F23 = H == RSMSS_H_LEFT ? (1.0 + px) - dV : (2.0 - px) - dV;
-            return RsmssResult(clamp(tV == RSMSS_TH_DUAL_POSITIVE ? H == RSMSS_H_LEFT ? px : H == RSMSS_H_RIGHT ? 1.0 - px : 1.0 : F23, 0.0, 1.0), 16u);
+            return RsmssResult(clamp(tV == RSMSS_TH_DUAL_POSITIVE ? u : F23, 0.0, 1.0), 16u);
         }
         case 16u: {
             // case 19: two edges meet: the darker one (section 3, case 19; rsmss.ron:339)
@@ -312,13 +314,15 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         }
         case 18u: {
             // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:373)
+            float F28 = V == RSMSS_V_BOTTOM ? py : 1.0 - py;
             float F30 = V == RSMSS_V_BOTTOM ? (py + dH) - 1.0 : dH - py;
-            return RsmssResult(clamp(tH == RSMSS_TH_DUAL_POSITIVE ? V == RSMSS_V_BOTTOM ? py : V == RSMSS_V_TOP ? 1.0 - py : 0.0 : F30, 0.0, 1.0), 25u);
+            return RsmssResult(clamp(tH == RSMSS_TH_DUAL_POSITIVE ? F28 : F30, 0.0, 1.0), 25u);
         }
         case 19u: {
             // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:364)
+            float F29 = H == RSMSS_H_LEFT ? 1.0 - px : px;
             float F31 = H == RSMSS_H_LEFT ? dV - px : (px + dV) - 1.0;
-            return RsmssResult(clamp(tV == RSMSS_TH_DUAL_POSITIVE ? H == RSMSS_H_LEFT ? 1.0 - px : H == RSMSS_H_RIGHT ? px : 0.0 : F31, 0.0, 1.0), 24u);
+            return RsmssResult(clamp(tV == RSMSS_TH_DUAL_POSITIVE ? F29 : F31, 0.0, 1.0), 24u);
         }
         case 20u: {
             // case 27: two edges meet: the lighter one (section 3, case 27; rsmss.ron:387)
@@ -344,7 +348,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 float u = H == RSMSS_H_LEFT ? px : 1.0 - px;
                 return RsmssResult(clamp(min(u, (2.0 - py) - dH), 0.0, 1.0), 10u);
             }
-            // case 10, no line applies: default: the tip of a horizontal gap (section 3, case 10; rsmss.ron:248)
+            // case 10, no line applies, so the default: the tip of a horizontal gap (section 3, case 10; rsmss.ron:248)
             return RsmssResult(1.0, 10u);
         }
         case 22u: {
@@ -362,7 +366,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                     // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:212)
                     return RsmssResult(clamp(px - py, 0.0, 1.0), 7u);
                 }
-                // case 7, no line applies: default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
+                // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
                 return RsmssResult(1.0, 7u);
             }
             uint n_left = rsmss_fetch_n_left(site);
@@ -378,7 +382,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:213)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 7u);
             }
-            // case 7, no line applies: default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
+            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:206)
             return RsmssResult(1.0, 7u);
         }
         case 23u: {
@@ -411,7 +415,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                     // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:304)
                     return RsmssResult(clamp(max(1.0 - px, py), 0.0, 1.0), 14u);
                 }
-                // case 14, no line applies: default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
+                // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
                 return RsmssResult(0.0, 14u);
             }
             uint n_left = rsmss_fetch_n_left(site);
@@ -442,7 +446,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:304)
                 return RsmssResult(clamp(max(1.0 - (1.0 - px), py), 0.0, 1.0), 14u);
             }
-            // case 14, no line applies: default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
+            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:296)
             return RsmssResult(0.0, 14u);
         }
         case 24u: {
@@ -464,7 +468,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:240)
                 return RsmssResult(clamp((2.0 - px) - dV, 0.0, 1.0), 9u);
             }
-            // case 9, no line applies: default: inside a vertical gap (section 3, case 9; rsmss.ron:235)
+            // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:235)
             return RsmssResult(1.0, 9u);
         }
         case 25u: {
@@ -483,7 +487,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                     // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:165)
                     return RsmssResult(clamp(py - px, 0.0, 1.0), 4u);
                 }
-                // case 4, no line applies: default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
+                // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
                 return RsmssResult(1.0, 4u);
             }
             uint n_bottom = rsmss_fetch_n_bottom(site);
@@ -503,7 +507,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:167)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 4u);
             }
-            // case 4, no line applies: default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
+            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:160)
             return RsmssResult(1.0, 4u);
         }
         case 26u: {
@@ -522,7 +526,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 float B_h = tV == RSMSS_TH_DUAL_POSITIVE ? px : (dV + px) - 1.0;
                 return RsmssResult(clamp(B_h, 0.0, 1.0), 13u);
             }
-            // case 13, no line applies: default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:287)
+            // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:287)
             return RsmssResult(0.0, 13u);
         }
         case 27u: {
@@ -541,7 +545,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 float w = V == RSMSS_V_TOP ? py : 1.0 - py;
                 return RsmssResult(clamp(min(w, (1.0 + px) - dV), 0.0, 1.0), 8u);
             }
-            // case 8, no line applies: default: the tip of a vertical gap (section 3, case 8; rsmss.ron:222)
+            // case 8, no line applies, so the default: the tip of a vertical gap (section 3, case 8; rsmss.ron:222)
             return RsmssResult(1.0, 8u);
         }
         case 28u: {
@@ -559,7 +563,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                     // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:181)
                     return RsmssResult(clamp(py - px, 0.0, 1.0), 5u);
                 }
-                // case 5, no line applies: default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
+                // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
                 return RsmssResult(1.0, 5u);
             }
             uint n_top = rsmss_fetch_n_top(site);
@@ -575,7 +579,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:183)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 5u);
             }
-            // case 5, no line applies: default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
+            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:176)
             return RsmssResult(1.0, 5u);
         }
         case 29u: {
@@ -608,7 +612,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                     // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:282)
                     return RsmssResult(clamp(max(1.0 - py, px), 0.0, 1.0), 12u);
                 }
-                // case 12, no line applies: default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
+                // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
                 return RsmssResult(0.0, 12u);
             }
             uint n_top = rsmss_fetch_n_top(site);
@@ -639,7 +643,7 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
                 // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:282)
                 return RsmssResult(clamp(max(1.0 - (1.0 - py), px), 0.0, 1.0), 12u);
             }
-            // case 12, no line applies: default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
+            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:274)
             return RsmssResult(0.0, 12u);
         }
         case 30u: {

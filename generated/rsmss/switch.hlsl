@@ -631,21 +631,23 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
             return rsmssresult_36;
         }
         case 14u: {
+            float F20_ = ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py);
             float F22_2 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
-            const RsmssResult rsmssresult_37 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : ((V_3 == RSMSS_V_TOP) ? py : 1.0)) : F22_2), 0.0, 1.0), 17u);
+            const RsmssResult rsmssresult_37 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_ : F22_2), 0.0, 1.0), 17u);
             return rsmssresult_37;
         }
         case 15u: {
+            float u = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
             float F23_1 = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
-            const RsmssResult rsmssresult_38 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? px : ((H_3 == RSMSS_H_RIGHT) ? (1.0 - px) : 1.0)) : F23_1), 0.0, 1.0), 16u);
+            const RsmssResult rsmssresult_38 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u : F23_1), 0.0, 1.0), 16u);
             return rsmssresult_38;
         }
         case 16u: {
-            float u = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
+            float u_1 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
             float F23_2 = ((H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV));
-            float F20_ = ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py);
+            float F20_1 = ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py);
             float F22_3 = ((V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH));
-            const RsmssResult rsmssresult_39 = ConstructRsmssResult(clamp(min(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u : F23_2), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_ : F22_3)), 0.0, 1.0), 19u);
+            const RsmssResult rsmssresult_39 = ConstructRsmssResult(clamp(min(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u_1 : F23_2), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_1 : F22_3)), 0.0, 1.0), 19u);
             return rsmssresult_39;
         }
         case 17u: {
@@ -654,37 +656,39 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
             return rsmssresult_40;
         }
         case 18u: {
+            float F28_ = ((V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py));
             float F30_2 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
-            const RsmssResult rsmssresult_41 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? py : ((V_3 == RSMSS_V_TOP) ? (1.0 - py) : 0.0)) : F30_2), 0.0, 1.0), 25u);
+            const RsmssResult rsmssresult_41 = ConstructRsmssResult(clamp(((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_2), 0.0, 1.0), 25u);
             return rsmssresult_41;
         }
         case 19u: {
+            float F29_ = ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px);
             float F31_1 = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
-            const RsmssResult rsmssresult_42 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : ((H_3 == RSMSS_H_RIGHT) ? px : 0.0)) : F31_1), 0.0, 1.0), 24u);
+            const RsmssResult rsmssresult_42 = ConstructRsmssResult(clamp(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_1), 0.0, 1.0), 24u);
             return rsmssresult_42;
         }
         case 20u: {
-            float F29_ = ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px);
+            float F29_1 = ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px);
             float F31_2 = ((H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0));
-            float F28_ = ((V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py));
+            float F28_1 = ((V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py));
             float F30_3 = ((V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py));
-            const RsmssResult rsmssresult_43 = ConstructRsmssResult(clamp(max(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_2), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_3)), 0.0, 1.0), 27u);
+            const RsmssResult rsmssresult_43 = ConstructRsmssResult(clamp(max(((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_1 : F31_2), ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_1 : F30_3)), 0.0, 1.0), 27u);
             return rsmssresult_43;
         }
         case 21u: {
-            const uint _e532 = rsmss_fetch_d_cb_v(site_10);
-            if ((_e532 == RSMSS_V_NONE)) {
+            const uint _e516 = rsmss_fetch_d_cb_v(site_10);
+            if ((_e516 == RSMSS_V_NONE)) {
                 const RsmssResult rsmssresult_44 = ConstructRsmssResult(clamp((1.0 - dH), 0.0, 1.0), 10u);
                 return rsmssresult_44;
             }
-            if ((_e532 == RSMSS_V_TOP)) {
-                float u_1 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
-                const RsmssResult rsmssresult_45 = ConstructRsmssResult(clamp(min(u_1, ((1.0 + py) - dH)), 0.0, 1.0), 10u);
+            if ((_e516 == RSMSS_V_TOP)) {
+                float u_2 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
+                const RsmssResult rsmssresult_45 = ConstructRsmssResult(clamp(min(u_2, ((1.0 + py) - dH)), 0.0, 1.0), 10u);
                 return rsmssresult_45;
             }
-            if ((_e532 == RSMSS_V_BOTTOM)) {
-                float u_2 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
-                const RsmssResult rsmssresult_46 = ConstructRsmssResult(clamp(min(u_2, ((2.0 - py) - dH)), 0.0, 1.0), 10u);
+            if ((_e516 == RSMSS_V_BOTTOM)) {
+                float u_3 = ((H_3 == RSMSS_H_LEFT) ? px : (1.0 - px));
+                const RsmssResult rsmssresult_46 = ConstructRsmssResult(clamp(min(u_3, ((2.0 - py) - dH)), 0.0, 1.0), 10u);
                 return rsmssresult_46;
             }
             const RsmssResult rsmssresult_47 = ConstructRsmssResult(1.0, 10u);
@@ -692,32 +696,32 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
         }
         case 22u: {
             if ((H_3 == RSMSS_H_LEFT)) {
-                const uint _e579 = rsmss_fetch_n_right(site_10);
-                if ((_e579 == RSMSS_V_BOTH)) {
+                const uint _e563 = rsmss_fetch_n_right(site_10);
+                if ((_e563 == RSMSS_V_BOTH)) {
                     const RsmssResult rsmssresult_48 = ConstructRsmssResult(clamp(min(min(((1.0 + py) - dH), ((2.0 - py) - dH)), px), 0.0, 1.0), 7u);
                     return rsmssresult_48;
                 }
-                if ((_e579 == RSMSS_V_TOP)) {
+                if ((_e563 == RSMSS_V_TOP)) {
                     const RsmssResult rsmssresult_49 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 7u);
                     return rsmssresult_49;
                 }
-                if ((_e579 == RSMSS_V_BOTTOM)) {
+                if ((_e563 == RSMSS_V_BOTTOM)) {
                     const RsmssResult rsmssresult_50 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 7u);
                     return rsmssresult_50;
                 }
                 const RsmssResult rsmssresult_51 = ConstructRsmssResult(1.0, 7u);
                 return rsmssresult_51;
             }
-            const uint _e616 = rsmss_fetch_n_left(site_10);
-            if ((_e616 == RSMSS_V_BOTH)) {
+            const uint _e600 = rsmss_fetch_n_left(site_10);
+            if ((_e600 == RSMSS_V_BOTH)) {
                 const RsmssResult rsmssresult_52 = ConstructRsmssResult(clamp(min(min(((1.0 + py) - dH), ((2.0 - py) - dH)), (1.0 - px)), 0.0, 1.0), 7u);
                 return rsmssresult_52;
             }
-            if ((_e616 == RSMSS_V_TOP)) {
+            if ((_e600 == RSMSS_V_TOP)) {
                 const RsmssResult rsmssresult_53 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 7u);
                 return rsmssresult_53;
             }
-            if ((_e616 == RSMSS_V_BOTTOM)) {
+            if ((_e600 == RSMSS_V_BOTTOM)) {
                 const RsmssResult rsmssresult_54 = ConstructRsmssResult(clamp(((1.0 - px) - py), 0.0, 1.0), 7u);
                 return rsmssresult_54;
             }
@@ -726,62 +730,62 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
         }
         case 23u: {
             if ((H_3 == RSMSS_H_LEFT)) {
-                const uint _e657 = rsmss_fetch_n_right(site_10);
-                if ((_e657 == RSMSS_V_NONE)) {
+                const uint _e641 = rsmss_fetch_n_right(site_10);
+                if ((_e641 == RSMSS_V_NONE)) {
                     const RsmssResult rsmssresult_56 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
                     return rsmssresult_56;
                 }
-                if ((_e657 == RSMSS_V_BOTTOM)) {
+                if ((_e641 == RSMSS_V_BOTTOM)) {
                     float B_v_1 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? py : ((dH + py) - 1.0));
                     const RsmssResult rsmssresult_57 = ConstructRsmssResult(clamp(max((1.0 - px), B_v_1), 0.0, 1.0), 14u);
                     return rsmssresult_57;
                 }
-                if ((_e657 == RSMSS_V_TOP)) {
+                if ((_e641 == RSMSS_V_TOP)) {
                     float A_v_1 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - py) : (dH - py));
                     const RsmssResult rsmssresult_58 = ConstructRsmssResult(clamp(max((1.0 - px), A_v_1), 0.0, 1.0), 14u);
                     return rsmssresult_58;
                 }
-                const uint _e697 = rsmss_fetch_d_cb_v(site_10);
-                if ((_e697 == RSMSS_V_NONE)) {
+                const uint _e681 = rsmss_fetch_d_cb_v(site_10);
+                if ((_e681 == RSMSS_V_NONE)) {
                     const RsmssResult rsmssresult_59 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
                     return rsmssresult_59;
                 }
-                if ((_e697 == RSMSS_V_TOP)) {
+                if ((_e681 == RSMSS_V_TOP)) {
                     const RsmssResult rsmssresult_60 = ConstructRsmssResult(clamp(max((1.0 - px), (1.0 - py)), 0.0, 1.0), 14u);
                     return rsmssresult_60;
                 }
-                if ((_e697 == RSMSS_V_BOTTOM)) {
+                if ((_e681 == RSMSS_V_BOTTOM)) {
                     const RsmssResult rsmssresult_61 = ConstructRsmssResult(clamp(max((1.0 - px), py), 0.0, 1.0), 14u);
                     return rsmssresult_61;
                 }
                 const RsmssResult rsmssresult_62 = ConstructRsmssResult(0.0, 14u);
                 return rsmssresult_62;
             }
-            const uint _e730 = rsmss_fetch_n_left(site_10);
-            if ((_e730 == RSMSS_V_NONE)) {
+            const uint _e714 = rsmss_fetch_n_left(site_10);
+            if ((_e714 == RSMSS_V_NONE)) {
                 const RsmssResult rsmssresult_63 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
                 return rsmssresult_63;
             }
-            if ((_e730 == RSMSS_V_BOTTOM)) {
+            if ((_e714 == RSMSS_V_BOTTOM)) {
                 float B_v_2 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? py : ((dH + py) - 1.0));
                 const RsmssResult rsmssresult_64 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), B_v_2), 0.0, 1.0), 14u);
                 return rsmssresult_64;
             }
-            if ((_e730 == RSMSS_V_TOP)) {
+            if ((_e714 == RSMSS_V_TOP)) {
                 float A_v_2 = ((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - py) : (dH - py));
                 const RsmssResult rsmssresult_65 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), A_v_2), 0.0, 1.0), 14u);
                 return rsmssresult_65;
             }
-            const uint _e774 = rsmss_fetch_d_cb_v(site_10);
-            if ((_e774 == RSMSS_V_NONE)) {
+            const uint _e758 = rsmss_fetch_d_cb_v(site_10);
+            if ((_e758 == RSMSS_V_NONE)) {
                 const RsmssResult rsmssresult_66 = ConstructRsmssResult(clamp(dH, 0.0, 1.0), 14u);
                 return rsmssresult_66;
             }
-            if ((_e774 == RSMSS_V_TOP)) {
+            if ((_e758 == RSMSS_V_TOP)) {
                 const RsmssResult rsmssresult_67 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), (1.0 - py)), 0.0, 1.0), 14u);
                 return rsmssresult_67;
             }
-            if ((_e774 == RSMSS_V_BOTTOM)) {
+            if ((_e758 == RSMSS_V_BOTTOM)) {
                 const RsmssResult rsmssresult_68 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - px)), py), 0.0, 1.0), 14u);
                 return rsmssresult_68;
             }
@@ -789,33 +793,33 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
             return rsmssresult_69;
         }
         case 24u: {
-            const uint _e811 = rsmss_fetch_d_cb_top(site_10);
-            if ((_e811 == RSMSS_H_NONE)) {
+            const uint _e795 = rsmss_fetch_d_cb_top(site_10);
+            if ((_e795 == RSMSS_H_NONE)) {
                 const RsmssResult rsmssresult_70 = ConstructRsmssResult(clamp((1.0 - dV), 0.0, 1.0), 9u);
                 return rsmssresult_70;
             }
-            const uint _e821 = rsmss_fetch_d_cb_bottom(site_10);
-            if ((_e821 == RSMSS_H_NONE)) {
+            const uint _e805 = rsmss_fetch_d_cb_bottom(site_10);
+            if ((_e805 == RSMSS_H_NONE)) {
                 const RsmssResult rsmssresult_71 = ConstructRsmssResult(clamp((1.0 - dV), 0.0, 1.0), 9u);
                 return rsmssresult_71;
             }
-            if (!((_e811 == RSMSS_H_LEFT))) {
-                local_2 = (_e821 == RSMSS_H_LEFT);
+            if (!((_e795 == RSMSS_H_LEFT))) {
+                local_2 = (_e805 == RSMSS_H_LEFT);
             } else {
                 local_2 = true;
             }
-            bool _e839 = local_2;
-            if (_e839) {
+            bool _e823 = local_2;
+            if (_e823) {
                 const RsmssResult rsmssresult_72 = ConstructRsmssResult(clamp(((1.0 + px) - dV), 0.0, 1.0), 9u);
                 return rsmssresult_72;
             }
-            if (!((_e811 == RSMSS_H_RIGHT))) {
-                local_3 = (_e821 == RSMSS_H_RIGHT);
+            if (!((_e795 == RSMSS_H_RIGHT))) {
+                local_3 = (_e805 == RSMSS_H_RIGHT);
             } else {
                 local_3 = true;
             }
-            bool _e856 = local_3;
-            if (_e856) {
+            bool _e840 = local_3;
+            if (_e840) {
                 const RsmssResult rsmssresult_73 = ConstructRsmssResult(clamp(((2.0 - px) - dV), 0.0, 1.0), 9u);
                 return rsmssresult_73;
             }
@@ -823,38 +827,38 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
             return rsmssresult_74;
         }
         case 25u: {
-            const uint _e868 = rsmss_fetch_n_top(site_10);
-            if ((_e868 == RSMSS_H_BOTH)) {
-                const uint _e871 = rsmss_fetch_n_bottom(site_10);
-                if ((_e871 == RSMSS_H_BOTH)) {
+            const uint _e852 = rsmss_fetch_n_top(site_10);
+            if ((_e852 == RSMSS_H_BOTH)) {
+                const uint _e855 = rsmss_fetch_n_bottom(site_10);
+                if ((_e855 == RSMSS_H_BOTH)) {
                     const RsmssResult rsmssresult_75 = ConstructRsmssResult(0.0, 4u);
                     return rsmssresult_75;
                 }
-                if ((_e871 == RSMSS_H_LEFT)) {
+                if ((_e855 == RSMSS_H_LEFT)) {
                     const RsmssResult rsmssresult_76 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 4u);
                     return rsmssresult_76;
                 }
-                if ((_e871 == RSMSS_H_RIGHT)) {
+                if ((_e855 == RSMSS_H_RIGHT)) {
                     const RsmssResult rsmssresult_77 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 4u);
                     return rsmssresult_77;
                 }
                 const RsmssResult rsmssresult_78 = ConstructRsmssResult(1.0, 4u);
                 return rsmssresult_78;
             }
-            const uint _e898 = rsmss_fetch_n_bottom(site_10);
-            if ((_e898 == RSMSS_H_LEFT)) {
+            const uint _e882 = rsmss_fetch_n_bottom(site_10);
+            if ((_e882 == RSMSS_H_LEFT)) {
                 const RsmssResult rsmssresult_79 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 4u);
                 return rsmssresult_79;
             }
-            if ((_e898 == RSMSS_H_RIGHT)) {
+            if ((_e882 == RSMSS_H_RIGHT)) {
                 const RsmssResult rsmssresult_80 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 4u);
                 return rsmssresult_80;
             }
-            if ((_e868 == RSMSS_H_LEFT)) {
+            if ((_e852 == RSMSS_H_LEFT)) {
                 const RsmssResult rsmssresult_81 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 4u);
                 return rsmssresult_81;
             }
-            if ((_e868 == RSMSS_H_RIGHT)) {
+            if ((_e852 == RSMSS_H_RIGHT)) {
                 const RsmssResult rsmssresult_82 = ConstructRsmssResult(clamp(((1.0 - px) - py), 0.0, 1.0), 4u);
                 return rsmssresult_82;
             }
@@ -862,17 +866,17 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
             return rsmssresult_83;
         }
         case 26u: {
-            const uint _e938 = rsmss_fetch_d_cb_h(site_10);
-            if ((_e938 == RSMSS_H_NONE)) {
+            const uint _e922 = rsmss_fetch_d_cb_h(site_10);
+            if ((_e922 == RSMSS_H_NONE)) {
                 const RsmssResult rsmssresult_84 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 13u);
                 return rsmssresult_84;
             }
-            if ((_e938 == RSMSS_H_LEFT)) {
+            if ((_e922 == RSMSS_H_LEFT)) {
                 float A_h = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px));
                 const RsmssResult rsmssresult_85 = ConstructRsmssResult(clamp(A_h, 0.0, 1.0), 13u);
                 return rsmssresult_85;
             }
-            if ((_e938 == RSMSS_H_RIGHT)) {
+            if ((_e922 == RSMSS_H_RIGHT)) {
                 float B_h = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0));
                 const RsmssResult rsmssresult_86 = ConstructRsmssResult(clamp(B_h, 0.0, 1.0), 13u);
                 return rsmssresult_86;
@@ -881,17 +885,17 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
             return rsmssresult_87;
         }
         case 27u: {
-            const uint _e975 = rsmss_fetch_d_cb_h(site_10);
-            if ((_e975 == RSMSS_H_NONE)) {
+            const uint _e959 = rsmss_fetch_d_cb_h(site_10);
+            if ((_e959 == RSMSS_H_NONE)) {
                 const RsmssResult rsmssresult_88 = ConstructRsmssResult(clamp((1.0 - dV), 0.0, 1.0), 8u);
                 return rsmssresult_88;
             }
-            if ((_e975 == RSMSS_H_RIGHT)) {
+            if ((_e959 == RSMSS_H_RIGHT)) {
                 float w = ((V_3 == RSMSS_V_TOP) ? py : (1.0 - py));
                 const RsmssResult rsmssresult_89 = ConstructRsmssResult(clamp(min(w, ((2.0 - px) - dV)), 0.0, 1.0), 8u);
                 return rsmssresult_89;
             }
-            if ((_e975 == RSMSS_H_LEFT)) {
+            if ((_e959 == RSMSS_H_LEFT)) {
                 float w_1 = ((V_3 == RSMSS_V_TOP) ? py : (1.0 - py));
                 const RsmssResult rsmssresult_90 = ConstructRsmssResult(clamp(min(w_1, ((1.0 + px) - dV)), 0.0, 1.0), 8u);
                 return rsmssresult_90;
@@ -901,32 +905,32 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
         }
         case 28u: {
             if ((V_3 == RSMSS_V_TOP)) {
-                const uint _e1022 = rsmss_fetch_n_bottom(site_10);
-                if ((_e1022 == RSMSS_H_BOTH)) {
+                const uint _e1006 = rsmss_fetch_n_bottom(site_10);
+                if ((_e1006 == RSMSS_H_BOTH)) {
                     const RsmssResult rsmssresult_92 = ConstructRsmssResult(clamp(min(min(((1.0 + px) - dV), ((2.0 - px) - dV)), py), 0.0, 1.0), 5u);
                     return rsmssresult_92;
                 }
-                if ((_e1022 == RSMSS_H_LEFT)) {
+                if ((_e1006 == RSMSS_H_LEFT)) {
                     const RsmssResult rsmssresult_93 = ConstructRsmssResult(clamp(((px + py) - 1.0), 0.0, 1.0), 5u);
                     return rsmssresult_93;
                 }
-                if ((_e1022 == RSMSS_H_RIGHT)) {
+                if ((_e1006 == RSMSS_H_RIGHT)) {
                     const RsmssResult rsmssresult_94 = ConstructRsmssResult(clamp((py - px), 0.0, 1.0), 5u);
                     return rsmssresult_94;
                 }
                 const RsmssResult rsmssresult_95 = ConstructRsmssResult(1.0, 5u);
                 return rsmssresult_95;
             }
-            const uint _e1059 = rsmss_fetch_n_top(site_10);
-            if ((_e1059 == RSMSS_H_BOTH)) {
+            const uint _e1043 = rsmss_fetch_n_top(site_10);
+            if ((_e1043 == RSMSS_H_BOTH)) {
                 const RsmssResult rsmssresult_96 = ConstructRsmssResult(clamp(min(min(((1.0 + px) - dV), ((2.0 - px) - dV)), (1.0 - py)), 0.0, 1.0), 5u);
                 return rsmssresult_96;
             }
-            if ((_e1059 == RSMSS_H_LEFT)) {
+            if ((_e1043 == RSMSS_H_LEFT)) {
                 const RsmssResult rsmssresult_97 = ConstructRsmssResult(clamp((px - py), 0.0, 1.0), 5u);
                 return rsmssresult_97;
             }
-            if ((_e1059 == RSMSS_H_RIGHT)) {
+            if ((_e1043 == RSMSS_H_RIGHT)) {
                 const RsmssResult rsmssresult_98 = ConstructRsmssResult(clamp(((1.0 - px) - py), 0.0, 1.0), 5u);
                 return rsmssresult_98;
             }
@@ -935,62 +939,62 @@ RsmssResult rsmss_key_case(uint key_1, float dH, float dV, float px, float py, R
         }
         case 29u: {
             if ((V_3 == RSMSS_V_TOP)) {
-                const uint _e1100 = rsmss_fetch_n_bottom(site_10);
-                if ((_e1100 == RSMSS_H_NONE)) {
+                const uint _e1084 = rsmss_fetch_n_bottom(site_10);
+                if ((_e1084 == RSMSS_H_NONE)) {
                     const RsmssResult rsmssresult_100 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
                     return rsmssresult_100;
                 }
-                if ((_e1100 == RSMSS_H_RIGHT)) {
+                if ((_e1084 == RSMSS_H_RIGHT)) {
                     float B_h_1 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0));
                     const RsmssResult rsmssresult_101 = ConstructRsmssResult(clamp(max((1.0 - py), B_h_1), 0.0, 1.0), 12u);
                     return rsmssresult_101;
                 }
-                if ((_e1100 == RSMSS_H_LEFT)) {
+                if ((_e1084 == RSMSS_H_LEFT)) {
                     float A_h_1 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px));
                     const RsmssResult rsmssresult_102 = ConstructRsmssResult(clamp(max((1.0 - py), A_h_1), 0.0, 1.0), 12u);
                     return rsmssresult_102;
                 }
-                const uint _e1140 = rsmss_fetch_d_cb_h(site_10);
-                if ((_e1140 == RSMSS_H_NONE)) {
+                const uint _e1124 = rsmss_fetch_d_cb_h(site_10);
+                if ((_e1124 == RSMSS_H_NONE)) {
                     const RsmssResult rsmssresult_103 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
                     return rsmssresult_103;
                 }
-                if ((_e1140 == RSMSS_H_LEFT)) {
+                if ((_e1124 == RSMSS_H_LEFT)) {
                     const RsmssResult rsmssresult_104 = ConstructRsmssResult(clamp(max((1.0 - py), (1.0 - px)), 0.0, 1.0), 12u);
                     return rsmssresult_104;
                 }
-                if ((_e1140 == RSMSS_H_RIGHT)) {
+                if ((_e1124 == RSMSS_H_RIGHT)) {
                     const RsmssResult rsmssresult_105 = ConstructRsmssResult(clamp(max((1.0 - py), px), 0.0, 1.0), 12u);
                     return rsmssresult_105;
                 }
                 const RsmssResult rsmssresult_106 = ConstructRsmssResult(0.0, 12u);
                 return rsmssresult_106;
             }
-            const uint _e1173 = rsmss_fetch_n_top(site_10);
-            if ((_e1173 == RSMSS_H_NONE)) {
+            const uint _e1157 = rsmss_fetch_n_top(site_10);
+            if ((_e1157 == RSMSS_H_NONE)) {
                 const RsmssResult rsmssresult_107 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
                 return rsmssresult_107;
             }
-            if ((_e1173 == RSMSS_H_RIGHT)) {
+            if ((_e1157 == RSMSS_H_RIGHT)) {
                 float B_h_2 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0));
                 const RsmssResult rsmssresult_108 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), B_h_2), 0.0, 1.0), 12u);
                 return rsmssresult_108;
             }
-            if ((_e1173 == RSMSS_H_LEFT)) {
+            if ((_e1157 == RSMSS_H_LEFT)) {
                 float A_h_2 = ((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px));
                 const RsmssResult rsmssresult_109 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), A_h_2), 0.0, 1.0), 12u);
                 return rsmssresult_109;
             }
-            const uint _e1217 = rsmss_fetch_d_cb_h(site_10);
-            if ((_e1217 == RSMSS_H_NONE)) {
+            const uint _e1201 = rsmss_fetch_d_cb_h(site_10);
+            if ((_e1201 == RSMSS_H_NONE)) {
                 const RsmssResult rsmssresult_110 = ConstructRsmssResult(clamp(dV, 0.0, 1.0), 12u);
                 return rsmssresult_110;
             }
-            if ((_e1217 == RSMSS_H_LEFT)) {
+            if ((_e1201 == RSMSS_H_LEFT)) {
                 const RsmssResult rsmssresult_111 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), (1.0 - px)), 0.0, 1.0), 12u);
                 return rsmssresult_111;
             }
-            if ((_e1217 == RSMSS_H_RIGHT)) {
+            if ((_e1201 == RSMSS_H_RIGHT)) {
                 const RsmssResult rsmssresult_112 = ConstructRsmssResult(clamp(max((1.0 - (1.0 - py)), px), 0.0, 1.0), 12u);
                 return rsmssresult_112;
             }

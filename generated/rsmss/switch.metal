@@ -655,214 +655,218 @@ RsmssResult rsmss_key_case(
             return RsmssResult {metal::clamp(F22_1, 0.0, 1.0), 18u};
         }
         case 14u: {
+            float F20_ = (V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py;
             float F22_2 = (V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH);
-            return RsmssResult {metal::clamp((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : ((V_3 == RSMSS_V_TOP) ? py : 1.0)) : F22_2, 0.0, 1.0), 17u};
+            return RsmssResult {metal::clamp((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_ : F22_2, 0.0, 1.0), 17u};
         }
         case 15u: {
+            float u = (H_3 == RSMSS_H_LEFT) ? px : (1.0 - px);
             float F23_1 = (H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV);
-            return RsmssResult {metal::clamp((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? px : ((H_3 == RSMSS_H_RIGHT) ? (1.0 - px) : 1.0)) : F23_1, 0.0, 1.0), 16u};
+            return RsmssResult {metal::clamp((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u : F23_1, 0.0, 1.0), 16u};
         }
         case 16u: {
-            float u = (H_3 == RSMSS_H_LEFT) ? px : (1.0 - px);
+            float u_1 = (H_3 == RSMSS_H_LEFT) ? px : (1.0 - px);
             float F23_2 = (H_3 == RSMSS_H_LEFT) ? ((1.0 + px) - dV) : ((2.0 - px) - dV);
-            float F20_ = (V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py;
+            float F20_1 = (V_3 == RSMSS_V_BOTTOM) ? (1.0 - py) : py;
             float F22_3 = (V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH);
-            return RsmssResult {metal::clamp(metal::min((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u : F23_2, (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_ : F22_3), 0.0, 1.0), 19u};
+            return RsmssResult {metal::clamp(metal::min((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? u_1 : F23_2, (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F20_1 : F22_3), 0.0, 1.0), 19u};
         }
         case 17u: {
             float F30_1 = (V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py);
             return RsmssResult {metal::clamp(F30_1, 0.0, 1.0), 26u};
         }
         case 18u: {
+            float F28_ = (V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py);
             float F30_2 = (V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py);
-            return RsmssResult {metal::clamp((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? ((V_3 == RSMSS_V_BOTTOM) ? py : ((V_3 == RSMSS_V_TOP) ? (1.0 - py) : 0.0)) : F30_2, 0.0, 1.0), 25u};
+            return RsmssResult {metal::clamp((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_2, 0.0, 1.0), 25u};
         }
         case 19u: {
+            float F29_ = (H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px;
             float F31_1 = (H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0);
-            return RsmssResult {metal::clamp((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? ((H_3 == RSMSS_H_LEFT) ? (1.0 - px) : ((H_3 == RSMSS_H_RIGHT) ? px : 0.0)) : F31_1, 0.0, 1.0), 24u};
+            return RsmssResult {metal::clamp((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_1, 0.0, 1.0), 24u};
         }
         case 20u: {
-            float F29_ = (H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px;
+            float F29_1 = (H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px;
             float F31_2 = (H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0);
-            float F28_ = (V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py);
+            float F28_1 = (V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py);
             float F30_3 = (V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py);
-            return RsmssResult {metal::clamp(metal::max((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_2, (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_3), 0.0, 1.0), 27u};
+            return RsmssResult {metal::clamp(metal::max((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_1 : F31_2, (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_1 : F30_3), 0.0, 1.0), 27u};
         }
         case 21u: {
-            uint _e532 = rsmss_fetch_d_cb_v(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e532 == RSMSS_V_NONE) {
+            uint _e516 = rsmss_fetch_d_cb_v(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e516 == RSMSS_V_NONE) {
                 return RsmssResult {metal::clamp(1.0 - dH, 0.0, 1.0), 10u};
             }
-            if (_e532 == RSMSS_V_TOP) {
-                float u_1 = (H_3 == RSMSS_H_LEFT) ? px : (1.0 - px);
-                return RsmssResult {metal::clamp(metal::min(u_1, (1.0 + py) - dH), 0.0, 1.0), 10u};
-            }
-            if (_e532 == RSMSS_V_BOTTOM) {
+            if (_e516 == RSMSS_V_TOP) {
                 float u_2 = (H_3 == RSMSS_H_LEFT) ? px : (1.0 - px);
-                return RsmssResult {metal::clamp(metal::min(u_2, (2.0 - py) - dH), 0.0, 1.0), 10u};
+                return RsmssResult {metal::clamp(metal::min(u_2, (1.0 + py) - dH), 0.0, 1.0), 10u};
+            }
+            if (_e516 == RSMSS_V_BOTTOM) {
+                float u_3 = (H_3 == RSMSS_H_LEFT) ? px : (1.0 - px);
+                return RsmssResult {metal::clamp(metal::min(u_3, (2.0 - py) - dH), 0.0, 1.0), 10u};
             }
             return RsmssResult {1.0, 10u};
         }
         case 22u: {
             if (H_3 == RSMSS_H_LEFT) {
-                uint _e579 = rsmss_fetch_n_right(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-                if (_e579 == RSMSS_V_BOTH) {
+                uint _e563 = rsmss_fetch_n_right(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+                if (_e563 == RSMSS_V_BOTH) {
                     return RsmssResult {metal::clamp(metal::min(metal::min((1.0 + py) - dH, (2.0 - py) - dH), px), 0.0, 1.0), 7u};
                 }
-                if (_e579 == RSMSS_V_TOP) {
+                if (_e563 == RSMSS_V_TOP) {
                     return RsmssResult {metal::clamp((px + py) - 1.0, 0.0, 1.0), 7u};
                 }
-                if (_e579 == RSMSS_V_BOTTOM) {
+                if (_e563 == RSMSS_V_BOTTOM) {
                     return RsmssResult {metal::clamp(px - py, 0.0, 1.0), 7u};
                 }
                 return RsmssResult {1.0, 7u};
             }
-            uint _e616 = rsmss_fetch_n_left(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e616 == RSMSS_V_BOTH) {
+            uint _e600 = rsmss_fetch_n_left(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e600 == RSMSS_V_BOTH) {
                 return RsmssResult {metal::clamp(metal::min(metal::min((1.0 + py) - dH, (2.0 - py) - dH), 1.0 - px), 0.0, 1.0), 7u};
             }
-            if (_e616 == RSMSS_V_TOP) {
+            if (_e600 == RSMSS_V_TOP) {
                 return RsmssResult {metal::clamp(py - px, 0.0, 1.0), 7u};
             }
-            if (_e616 == RSMSS_V_BOTTOM) {
+            if (_e600 == RSMSS_V_BOTTOM) {
                 return RsmssResult {metal::clamp((1.0 - px) - py, 0.0, 1.0), 7u};
             }
             return RsmssResult {1.0, 7u};
         }
         case 23u: {
             if (H_3 == RSMSS_H_LEFT) {
-                uint _e657 = rsmss_fetch_n_right(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-                if (_e657 == RSMSS_V_NONE) {
+                uint _e641 = rsmss_fetch_n_right(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+                if (_e641 == RSMSS_V_NONE) {
                     return RsmssResult {metal::clamp(dH, 0.0, 1.0), 14u};
                 }
-                if (_e657 == RSMSS_V_BOTTOM) {
+                if (_e641 == RSMSS_V_BOTTOM) {
                     float B_v_1 = (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? py : ((dH + py) - 1.0);
                     return RsmssResult {metal::clamp(metal::max(1.0 - px, B_v_1), 0.0, 1.0), 14u};
                 }
-                if (_e657 == RSMSS_V_TOP) {
+                if (_e641 == RSMSS_V_TOP) {
                     float A_v_1 = (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - py) : (dH - py);
                     return RsmssResult {metal::clamp(metal::max(1.0 - px, A_v_1), 0.0, 1.0), 14u};
                 }
-                uint _e697 = rsmss_fetch_d_cb_v(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-                if (_e697 == RSMSS_V_NONE) {
+                uint _e681 = rsmss_fetch_d_cb_v(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+                if (_e681 == RSMSS_V_NONE) {
                     return RsmssResult {metal::clamp(dH, 0.0, 1.0), 14u};
                 }
-                if (_e697 == RSMSS_V_TOP) {
+                if (_e681 == RSMSS_V_TOP) {
                     return RsmssResult {metal::clamp(metal::max(1.0 - px, 1.0 - py), 0.0, 1.0), 14u};
                 }
-                if (_e697 == RSMSS_V_BOTTOM) {
+                if (_e681 == RSMSS_V_BOTTOM) {
                     return RsmssResult {metal::clamp(metal::max(1.0 - px, py), 0.0, 1.0), 14u};
                 }
                 return RsmssResult {0.0, 14u};
             }
-            uint _e730 = rsmss_fetch_n_left(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e730 == RSMSS_V_NONE) {
+            uint _e714 = rsmss_fetch_n_left(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e714 == RSMSS_V_NONE) {
                 return RsmssResult {metal::clamp(dH, 0.0, 1.0), 14u};
             }
-            if (_e730 == RSMSS_V_BOTTOM) {
+            if (_e714 == RSMSS_V_BOTTOM) {
                 float B_v_2 = (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? py : ((dH + py) - 1.0);
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - px), B_v_2), 0.0, 1.0), 14u};
             }
-            if (_e730 == RSMSS_V_TOP) {
+            if (_e714 == RSMSS_V_TOP) {
                 float A_v_2 = (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - py) : (dH - py);
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - px), A_v_2), 0.0, 1.0), 14u};
             }
-            uint _e774 = rsmss_fetch_d_cb_v(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e774 == RSMSS_V_NONE) {
+            uint _e758 = rsmss_fetch_d_cb_v(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e758 == RSMSS_V_NONE) {
                 return RsmssResult {metal::clamp(dH, 0.0, 1.0), 14u};
             }
-            if (_e774 == RSMSS_V_TOP) {
+            if (_e758 == RSMSS_V_TOP) {
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - px), 1.0 - py), 0.0, 1.0), 14u};
             }
-            if (_e774 == RSMSS_V_BOTTOM) {
+            if (_e758 == RSMSS_V_BOTTOM) {
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - px), py), 0.0, 1.0), 14u};
             }
             return RsmssResult {0.0, 14u};
         }
         case 24u: {
-            uint _e811 = rsmss_fetch_d_cb_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e811 == RSMSS_H_NONE) {
+            uint _e795 = rsmss_fetch_d_cb_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e795 == RSMSS_H_NONE) {
                 return RsmssResult {metal::clamp(1.0 - dV, 0.0, 1.0), 9u};
             }
-            uint _e821 = rsmss_fetch_d_cb_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e821 == RSMSS_H_NONE) {
+            uint _e805 = rsmss_fetch_d_cb_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e805 == RSMSS_H_NONE) {
                 return RsmssResult {metal::clamp(1.0 - dV, 0.0, 1.0), 9u};
             }
-            if (!((_e811 == RSMSS_H_LEFT))) {
-                local_2 = _e821 == RSMSS_H_LEFT;
+            if (!((_e795 == RSMSS_H_LEFT))) {
+                local_2 = _e805 == RSMSS_H_LEFT;
             } else {
                 local_2 = true;
             }
-            bool _e839 = local_2;
-            if (_e839) {
+            bool _e823 = local_2;
+            if (_e823) {
                 return RsmssResult {metal::clamp((1.0 + px) - dV, 0.0, 1.0), 9u};
             }
-            if (!((_e811 == RSMSS_H_RIGHT))) {
-                local_3 = _e821 == RSMSS_H_RIGHT;
+            if (!((_e795 == RSMSS_H_RIGHT))) {
+                local_3 = _e805 == RSMSS_H_RIGHT;
             } else {
                 local_3 = true;
             }
-            bool _e856 = local_3;
-            if (_e856) {
+            bool _e840 = local_3;
+            if (_e840) {
                 return RsmssResult {metal::clamp((2.0 - px) - dV, 0.0, 1.0), 9u};
             }
             return RsmssResult {1.0, 9u};
         }
         case 25u: {
-            uint _e868 = rsmss_fetch_n_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e868 == RSMSS_H_BOTH) {
-                uint _e871 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-                if (_e871 == RSMSS_H_BOTH) {
+            uint _e852 = rsmss_fetch_n_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e852 == RSMSS_H_BOTH) {
+                uint _e855 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+                if (_e855 == RSMSS_H_BOTH) {
                     return RsmssResult {0.0, 4u};
                 }
-                if (_e871 == RSMSS_H_LEFT) {
+                if (_e855 == RSMSS_H_LEFT) {
                     return RsmssResult {metal::clamp((px + py) - 1.0, 0.0, 1.0), 4u};
                 }
-                if (_e871 == RSMSS_H_RIGHT) {
+                if (_e855 == RSMSS_H_RIGHT) {
                     return RsmssResult {metal::clamp(py - px, 0.0, 1.0), 4u};
                 }
                 return RsmssResult {1.0, 4u};
             }
-            uint _e898 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e898 == RSMSS_H_LEFT) {
+            uint _e882 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e882 == RSMSS_H_LEFT) {
                 return RsmssResult {metal::clamp((px + py) - 1.0, 0.0, 1.0), 4u};
             }
-            if (_e898 == RSMSS_H_RIGHT) {
+            if (_e882 == RSMSS_H_RIGHT) {
                 return RsmssResult {metal::clamp(py - px, 0.0, 1.0), 4u};
             }
-            if (_e868 == RSMSS_H_LEFT) {
+            if (_e852 == RSMSS_H_LEFT) {
                 return RsmssResult {metal::clamp(px - py, 0.0, 1.0), 4u};
             }
-            if (_e868 == RSMSS_H_RIGHT) {
+            if (_e852 == RSMSS_H_RIGHT) {
                 return RsmssResult {metal::clamp((1.0 - px) - py, 0.0, 1.0), 4u};
             }
             return RsmssResult {1.0, 4u};
         }
         case 26u: {
-            uint _e938 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e938 == RSMSS_H_NONE) {
+            uint _e922 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e922 == RSMSS_H_NONE) {
                 return RsmssResult {metal::clamp(dV, 0.0, 1.0), 13u};
             }
-            if (_e938 == RSMSS_H_LEFT) {
+            if (_e922 == RSMSS_H_LEFT) {
                 float A_h = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px);
                 return RsmssResult {metal::clamp(A_h, 0.0, 1.0), 13u};
             }
-            if (_e938 == RSMSS_H_RIGHT) {
+            if (_e922 == RSMSS_H_RIGHT) {
                 float B_h = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0);
                 return RsmssResult {metal::clamp(B_h, 0.0, 1.0), 13u};
             }
             return RsmssResult {0.0, 13u};
         }
         case 27u: {
-            uint _e975 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e975 == RSMSS_H_NONE) {
+            uint _e959 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e959 == RSMSS_H_NONE) {
                 return RsmssResult {metal::clamp(1.0 - dV, 0.0, 1.0), 8u};
             }
-            if (_e975 == RSMSS_H_RIGHT) {
+            if (_e959 == RSMSS_H_RIGHT) {
                 float w = (V_3 == RSMSS_V_TOP) ? py : (1.0 - py);
                 return RsmssResult {metal::clamp(metal::min(w, (2.0 - px) - dV), 0.0, 1.0), 8u};
             }
-            if (_e975 == RSMSS_H_LEFT) {
+            if (_e959 == RSMSS_H_LEFT) {
                 float w_1 = (V_3 == RSMSS_V_TOP) ? py : (1.0 - py);
                 return RsmssResult {metal::clamp(metal::min(w_1, (1.0 + px) - dV), 0.0, 1.0), 8u};
             }
@@ -870,76 +874,76 @@ RsmssResult rsmss_key_case(
         }
         case 28u: {
             if (V_3 == RSMSS_V_TOP) {
-                uint _e1022 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-                if (_e1022 == RSMSS_H_BOTH) {
+                uint _e1006 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+                if (_e1006 == RSMSS_H_BOTH) {
                     return RsmssResult {metal::clamp(metal::min(metal::min((1.0 + px) - dV, (2.0 - px) - dV), py), 0.0, 1.0), 5u};
                 }
-                if (_e1022 == RSMSS_H_LEFT) {
+                if (_e1006 == RSMSS_H_LEFT) {
                     return RsmssResult {metal::clamp((px + py) - 1.0, 0.0, 1.0), 5u};
                 }
-                if (_e1022 == RSMSS_H_RIGHT) {
+                if (_e1006 == RSMSS_H_RIGHT) {
                     return RsmssResult {metal::clamp(py - px, 0.0, 1.0), 5u};
                 }
                 return RsmssResult {1.0, 5u};
             }
-            uint _e1059 = rsmss_fetch_n_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e1059 == RSMSS_H_BOTH) {
+            uint _e1043 = rsmss_fetch_n_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e1043 == RSMSS_H_BOTH) {
                 return RsmssResult {metal::clamp(metal::min(metal::min((1.0 + px) - dV, (2.0 - px) - dV), 1.0 - py), 0.0, 1.0), 5u};
             }
-            if (_e1059 == RSMSS_H_LEFT) {
+            if (_e1043 == RSMSS_H_LEFT) {
                 return RsmssResult {metal::clamp(px - py, 0.0, 1.0), 5u};
             }
-            if (_e1059 == RSMSS_H_RIGHT) {
+            if (_e1043 == RSMSS_H_RIGHT) {
                 return RsmssResult {metal::clamp((1.0 - px) - py, 0.0, 1.0), 5u};
             }
             return RsmssResult {1.0, 5u};
         }
         case 29u: {
             if (V_3 == RSMSS_V_TOP) {
-                uint _e1100 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-                if (_e1100 == RSMSS_H_NONE) {
+                uint _e1084 = rsmss_fetch_n_bottom(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+                if (_e1084 == RSMSS_H_NONE) {
                     return RsmssResult {metal::clamp(dV, 0.0, 1.0), 12u};
                 }
-                if (_e1100 == RSMSS_H_RIGHT) {
+                if (_e1084 == RSMSS_H_RIGHT) {
                     float B_h_1 = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0);
                     return RsmssResult {metal::clamp(metal::max(1.0 - py, B_h_1), 0.0, 1.0), 12u};
                 }
-                if (_e1100 == RSMSS_H_LEFT) {
+                if (_e1084 == RSMSS_H_LEFT) {
                     float A_h_1 = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px);
                     return RsmssResult {metal::clamp(metal::max(1.0 - py, A_h_1), 0.0, 1.0), 12u};
                 }
-                uint _e1140 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-                if (_e1140 == RSMSS_H_NONE) {
+                uint _e1124 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+                if (_e1124 == RSMSS_H_NONE) {
                     return RsmssResult {metal::clamp(dV, 0.0, 1.0), 12u};
                 }
-                if (_e1140 == RSMSS_H_LEFT) {
+                if (_e1124 == RSMSS_H_LEFT) {
                     return RsmssResult {metal::clamp(metal::max(1.0 - py, 1.0 - px), 0.0, 1.0), 12u};
                 }
-                if (_e1140 == RSMSS_H_RIGHT) {
+                if (_e1124 == RSMSS_H_RIGHT) {
                     return RsmssResult {metal::clamp(metal::max(1.0 - py, px), 0.0, 1.0), 12u};
                 }
                 return RsmssResult {0.0, 12u};
             }
-            uint _e1173 = rsmss_fetch_n_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e1173 == RSMSS_H_NONE) {
+            uint _e1157 = rsmss_fetch_n_top(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e1157 == RSMSS_H_NONE) {
                 return RsmssResult {metal::clamp(dV, 0.0, 1.0), 12u};
             }
-            if (_e1173 == RSMSS_H_RIGHT) {
+            if (_e1157 == RSMSS_H_RIGHT) {
                 float B_h_2 = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0);
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - py), B_h_2), 0.0, 1.0), 12u};
             }
-            if (_e1173 == RSMSS_H_LEFT) {
+            if (_e1157 == RSMSS_H_LEFT) {
                 float A_h_2 = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px);
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - py), A_h_2), 0.0, 1.0), 12u};
             }
-            uint _e1217 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-            if (_e1217 == RSMSS_H_NONE) {
+            uint _e1201 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+            if (_e1201 == RSMSS_H_NONE) {
                 return RsmssResult {metal::clamp(dV, 0.0, 1.0), 12u};
             }
-            if (_e1217 == RSMSS_H_LEFT) {
+            if (_e1201 == RSMSS_H_LEFT) {
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - py), 1.0 - px), 0.0, 1.0), 12u};
             }
-            if (_e1217 == RSMSS_H_RIGHT) {
+            if (_e1201 == RSMSS_H_RIGHT) {
                 return RsmssResult {metal::clamp(metal::max(1.0 - (1.0 - py), px), 0.0, 1.0), 12u};
             }
             return RsmssResult {0.0, 12u};

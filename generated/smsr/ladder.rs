@@ -5,7 +5,7 @@
 // Plan:   ladder
 // Proof:  equal to the table on 576 states, 616 paths; the same operations on each
 
-#[allow(non_snake_case, clippy::all, dead_code, unused_variables)]
+#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]
 #[rustfmt::skip]
 pub mod smsr {
 
@@ -71,15 +71,15 @@ pub fn smsr_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32) -> SmsrResult
         // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:85)
         return SmsrResult { value: 0.0, case_id: 3 };
     }
-    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domH && !(domV) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
+    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
         // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:89)
         return SmsrResult { value: if H == SMSR_H_LEFT { if px < dV { 0.0 } else { 1.0 } } else { if (1.0 - px) < dV { 0.0 } else { 1.0 } }, case_id: 4 };
     }
-    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domV && !(domH) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
+    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domV && !domH && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
         // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:94)
         return SmsrResult { value: if V == SMSR_V_BOTTOM { if (1.0 - py) < dH { 0.0 } else { 1.0 } } else { if py < dH { 0.0 } else { 1.0 } }, case_id: 5 };
     }
-    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_BOTTOM) && !(domH) && !(domV) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
+    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_BOTTOM) && !domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
         if (1.0 - dH) < py {
             // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:99)
             return SmsrResult { value: 0.0, case_id: 6 };
@@ -87,7 +87,7 @@ pub fn smsr_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32) -> SmsrResult
         // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:99)
         return SmsrResult { value: 1.0, case_id: 6 };
     }
-    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_TOP) && !(domH) && !(domV) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
+    if ((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_TOP) && !domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE) {
         if (1.0 - dH) < (1.0 - py) {
             // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:104)
             return SmsrResult { value: 0.0, case_id: 7 };

@@ -66,15 +66,15 @@ fn smsr_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32) -> SmsrResult {
         // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:85)
         return SmsrResult(0.0, 3u);
     }
-    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domH && !(domV) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
+    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:89)
         return SmsrResult(select(select(1.0, 0.0, (1.0 - px) < dV), select(1.0, 0.0, px < dV), H == SMSR_H_LEFT), 4u);
     }
-    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domV && !(domH) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
+    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domV && !domH && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:94)
         return SmsrResult(select(select(1.0, 0.0, py < dH), select(1.0, 0.0, (1.0 - py) < dH), V == SMSR_V_BOTTOM), 5u);
     }
-    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_BOTTOM) && !(domH) && !(domV) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
+    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_BOTTOM) && !domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if ((1.0 - dH) < py) {
             // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:99)
             return SmsrResult(0.0, 6u);
@@ -82,7 +82,7 @@ fn smsr_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32) -> SmsrResult {
         // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:99)
         return SmsrResult(1.0, 6u);
     }
-    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_TOP) && !(domH) && !(domV) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
+    if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_TOP) && !domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if ((1.0 - dH) < (1.0 - py)) {
             // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:104)
             return SmsrResult(0.0, 7u);

@@ -5,7 +5,7 @@
 // Plan:   switch
 // Proof:  equal to the table on 576 states, 616 paths; the same operations on each
 
-#[allow(non_snake_case, clippy::all, dead_code, unused_variables)]
+#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]
 #[rustfmt::skip]
 pub mod smsr {
 

@@ -2,25 +2,44 @@
 //!
 //! A table that is malformed never gets here; [`Program::check`] refuses it.
 //! What is found here is about intent: an example that the table contradicts,
-//! a declaration that nothing uses. Each analysis is a file of its own and a
+//! a declaration that nothing uses, cases that contradict each other. Each analysis is a file of its own and a
 //! line of [`ANALYSES`].
 
+mod coverage;
 mod examples;
+mod overlap;
+mod region;
+mod symbolic;
+mod symmetry;
 mod unused;
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Severity};
 use crate::program::Program;
 
+pub use coverage::{Coverage, Dead, coverage};
 pub use examples::agrees;
+pub use overlap::{Overlap, overlaps};
+pub use symmetry::{Violation, admissible, violations, violations_under};
 
-/// Every analysis, in the order in which findings are shown.
-const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] = &[examples::findings, unused::findings];
+/// Every analysis that can find something wrong, in the order in which findings are shown.
+const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] =
+    &[examples::findings, overlap::findings, coverage::findings, unused::findings];
 
-/// Everything that is questionable about a program; empty for a clean one.
+/// Analyses that only ever note facts.
+const REMARKS: &[fn(&Program) -> Vec<Diagnostic>] = &[symmetry::findings];
+
+/// Everything that is questionable or worth knowing about a program.
 ///
-/// An error contradicts the table's own declarations, a warning does not.
+/// An error contradicts the table's own declarations, a warning does not. A note
+/// is a fact worth knowing, and leaves the table clean.
 pub fn findings(program: &Program) -> Vec<Diagnostic> {
-    ANALYSES.iter().flat_map(|analysis| analysis(program)).collect()
+    ANALYSES.iter().chain(REMARKS).flat_map(|analysis| analysis(program)).collect()
+}
+
+/// The same without notes; empty for a clean program.
+pub fn problems(program: &Program) -> Vec<Diagnostic> {
+    let found = ANALYSES.iter().flat_map(|analysis| analysis(program));
+    found.filter(|finding| finding.severity != Severity::Note).collect()
 }
 
 /// Checks the text of a table and returns the codes and messages of its findings.

@@ -73,10 +73,12 @@ fn one(
     let program = Program::read(file)?;
     if let Some((other, _)) = done.iter().find(|(other, _)| other.name == program.name) {
         let message = format!("`{}` and this file both define the table `{}`", other.source.name, program.name);
-        let error = Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
+        let error =
+            Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
         return Err(Failure::new(program.source.clone(), error));
     }
-    let findings = crate::analyse::findings(&program);
+    // Notes are for `check`: here they would hide what was built.
+    let findings = crate::analyse::problems(&program);
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Failure { source: program.source.clone(), diagnostics: findings });
     }

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use super::report::{self, Format, Report};
 use super::{Outcome, Result};
 use crate::analyse;
-use crate::diag::{Diagnostic, Failure, Severity, codes};
+use crate::build;
+use crate::diag::{Failure, Severity};
 use crate::program::Program;
-use crate::table::io_reason;
 
 /// Arguments of `umbrage check`.
 #[derive(clap::Args)]
@@ -23,7 +23,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut out = io::stdout().lock();
     let mut outcome = Outcome::Clean;
     for path in &arguments.paths {
-        let files = match tables(path) {
+        let files = match build::find_tables(path) {
             Ok(files) => files,
             Err(failure) => {
                 outcome = outcome.max(show(&mut out, report, &failure)?);
@@ -89,38 +89,4 @@ fn show(out: &mut impl Write, report: &Report, failure: &Failure) -> Result<Outc
 
 fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}
-
-/// The table itself, or every table below a directory, sorted.
-pub(super) fn tables(path: &Path) -> std::result::Result<Vec<PathBuf>, Failure> {
-    if !path.is_dir() {
-        return Ok(vec![path.to_owned()]);
-    }
-    let mut found = Vec::new();
-    let mut pending = vec![path.to_owned()];
-    while let Some(directory) = pending.pop() {
-        let unreadable = |error: io::Error| {
-            let name = directory.to_string_lossy().replace('\\', "/");
-            let message = format!("cannot be read: {}", io_reason(&error));
-            Failure::bare(name, Diagnostic::error(codes::UNREADABLE, message).help("check its permissions"))
-        };
-        for entry in std::fs::read_dir(&directory).map_err(unreadable)? {
-            let entry = entry.map_err(unreadable)?;
-            // Links to directories are not followed: they may form a circle.
-            if entry.file_type().map_err(unreadable)?.is_dir() {
-                pending.push(entry.path());
-            } else if entry.path().extension().is_some_and(|e| e == "ron") {
-                found.push(entry.path());
-            }
-        }
-    }
-    if found.is_empty() {
-        let name = path.to_string_lossy().replace('\\', "/");
-        return Err(Failure::bare(
-            name,
-            Diagnostic::error(codes::UNREADABLE, "contains no tables").help("tables are files named *.ron"),
-        ));
-    }
-    found.sort();
-    Ok(found)
 }

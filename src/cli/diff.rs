@@ -100,7 +100,11 @@ fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Resu
         )?;
         for offender in &run.offenders {
             writeln!(out, "    {}", offender.reason)?;
-            writeln!(out, "    to see what should happen: umbrage explain {} --at {}", program.source.name, offender.inputs)?;
+            writeln!(
+                out,
+                "    to see what should happen: umbrage explain {} --at {}",
+                program.source.name, offender.inputs
+            )?;
         }
     }
     Ok(())

@@ -159,7 +159,8 @@ pub fn table(
 
 fn internal(program: &Program, message: &str) -> Failure {
     use crate::diag::{Diagnostic, codes};
-    let error = Diagnostic::error(codes::BAD_VALUE, format!("the points of `{}` do not fit it: {message}", program.name));
+    let error =
+        Diagnostic::error(codes::BAD_VALUE, format!("the points of `{}` do not fit it: {message}", program.name));
     Failure::new(program.source.clone(), error.help("please report this: points are made from the table itself"))
 }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::dialect::{Dialect, Prefix, Type, bare};
-use super::module::Names;
+use super::names::Names;
 use super::text::Text;
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node};
@@ -81,7 +81,7 @@ impl Body<'_, '_> {
                 let (number, place) = match (leaf.line, line) {
                     (Some(_), Some(line)) if row.lines.len() == 1 => (String::new(), program.line(line.span)),
                     (Some(number), Some(line)) => (format!(", line {}", number + 1), program.line(line.span)),
-                    _ => (", no line applies: default".to_owned(), program.line(row.span)),
+                    _ => (", no line applies, so the default".to_owned(), program.line(row.span)),
                 };
                 let section = if row.section.is_empty() { String::new() } else { format!("section {}; ", row.section) };
                 self.text.comment(&format!("case {}{number}: {} ({section}{file}:{place})", row.id, row.doc));
@@ -200,7 +200,13 @@ impl Body<'_, '_> {
                 };
                 format!("({} {symbol} {})", self.expr(*a, locals), self.expr(*b, locals))
             }
-            Cond::Not(a) => format!("!({})", bare(&self.condition(*a, locals))),
+            Cond::Not(a) => match self.plan.pool.cond(*a) {
+                Cond::Level(input, levels) => {
+                    let count = self.plan.program.levels(*input).map_or(0, |known| known.count());
+                    self.level(*input, LevelSet(LevelSet::all(count).0 & !levels.0))
+                }
+                _ => format!("!({})", bare(&self.condition(*a, locals))),
+            },
             Cond::And(parts) => joined(parts, " && "),
             Cond::Or(parts) => joined(parts, " || "),
             Cond::If(c, a, b) => {

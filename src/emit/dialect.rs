@@ -33,11 +33,7 @@ impl Prefix {
             let mut chars = word.chars();
             chars.next().map(|first| first.to_ascii_uppercase().to_string() + chars.as_str()).unwrap_or_default()
         };
-        Self {
-            lower: name.to_owned(),
-            upper: name.to_ascii_uppercase(),
-            camel: name.split('_').map(capital).collect(),
-        }
+        Self { lower: name.to_owned(), upper: name.to_ascii_uppercase(), camel: name.split('_').map(capital).collect() }
     }
 
     /// The structure of value and case.
@@ -51,7 +47,7 @@ impl Prefix {
     }
 }
 
-/// How a language says things.
+/// How a language says things. What is not overridden is the way of the C family.
 pub(super) trait Dialect {
     /// The name of a type.
     fn ty(&self, ty: &Type, prefix: &Prefix) -> String;
@@ -61,7 +57,7 @@ pub(super) trait Dialect {
     fn epilogue(&self) -> &'static str {
         ""
     }
-    /// `pub` where needed, in front of functions and constants.
+    /// A constant of the module.
     fn constant(&self, name: &str, value: u32) -> String;
     /// The structure of value and case.
     fn result_struct(&self, prefix: &Prefix, output: &Output) -> String;
@@ -70,23 +66,33 @@ pub(super) trait Dialect {
     /// Declares a local constant.
     fn local(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String;
     /// The first line of a conditional.
-    fn if_open(&self, condition: &str) -> String;
+    fn if_open(&self, condition: &str) -> String {
+        format!("if ({condition}) {{")
+    }
     /// The first line of a choice by number.
-    fn switch_open(&self, selector: &str) -> String;
+    fn switch_open(&self, selector: &str) -> String {
+        format!("switch ({selector}) {{")
+    }
     /// The first line of a way of the choice.
     fn case_open(&self, values: &[u32]) -> String;
     /// The way of all other numbers, which leads behind the choice.
     fn case_default(&self) -> &'static str;
     /// A real number.
-    fn number(&self, value: f64) -> String;
+    fn number(&self, value: f64) -> String {
+        decimal(value)
+    }
     /// A whole number.
-    fn uint(&self, value: u32) -> String;
+    fn uint(&self, value: u32) -> String {
+        format!("{value}u")
+    }
     /// One of two values.
     fn select(&self, condition: &str, then: &str, other: &str) -> String;
     /// 0 or 1.
     fn bool_to_uint(&self, condition: &str) -> String;
     /// Calls the host for a fetched input.
-    fn fetch(&self, prefix: &Prefix, ident: &str) -> String;
+    fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
+        format!("{}_fetch_{ident}(site)", prefix.lower)
+    }
     /// The argument that passes the site on.
     fn site_argument(&self) -> &'static str {
         "site"
@@ -100,9 +106,13 @@ pub(super) trait Dialect {
     /// The output made of its components.
     fn value(&self, output: &Output, components: &[String]) -> String;
     /// Value and case together.
-    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String;
+    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
+        format!("{}({value}, {case})", prefix.result())
+    }
     /// The function of the host that reads a word of the lookup, where it is one.
-    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String;
+    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
+        format!("{}_lookup({word})", prefix.lower)
+    }
     /// Names of the entry points in this language: with f32 levels, with a key, and both with the case.
     fn entry_names(&self, prefix: &Prefix) -> [String; 4] {
         let p = &prefix.lower;

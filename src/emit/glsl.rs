@@ -1,7 +1,7 @@
 //! GLSL. One text serves 450, 330 core and ES 300: it uses unsigned integers
 //! and `switch`, which all of them have, and no `fma`, which ES 300 lacks.
 
-use super::dialect::{Dialect, Prefix, Type, call, decimal, infix};
+use super::dialect::{Dialect, Prefix, Type, call, infix};
 use crate::program::{BINARY_FUNCTIONS, BinaryOp, Output, TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp};
 
 /// A version of GLSL.
@@ -52,7 +52,10 @@ impl Dialect for Glsl {
             out += ".\n";
         } else {
             out += " and after what the host supplies:\n";
-            out += &format!("//   struct {} {{ ... }};  what a fetch needs to know, a texel for instance\n", prefix.site());
+            out += &format!(
+                "//   struct {} {{ ... }};  what a fetch needs to know, a texel for instance\n",
+                prefix.site()
+            );
             for (ident, ty) in fetches {
                 let ty = self.ty(ty, prefix);
                 out += &format!("//   {ty} {}_fetch_{ident}({} site)\n", prefix.lower, prefix.site());
@@ -82,14 +85,6 @@ impl Dialect for Glsl {
         format!("{} {name} = {value};", self.ty(ty, prefix))
     }
 
-    fn if_open(&self, condition: &str) -> String {
-        format!("if ({condition}) {{")
-    }
-
-    fn switch_open(&self, selector: &str) -> String {
-        format!("switch ({selector}) {{")
-    }
-
     fn case_open(&self, values: &[u32]) -> String {
         let values: Vec<String> = values.iter().map(|v| format!("case {v}u:")).collect();
         format!("{} {{", values.join(" "))
@@ -99,24 +94,12 @@ impl Dialect for Glsl {
         "default: { break; }"
     }
 
-    fn number(&self, value: f64) -> String {
-        decimal(value)
-    }
-
-    fn uint(&self, value: u32) -> String {
-        format!("{value}u")
-    }
-
     fn select(&self, condition: &str, then: &str, other: &str) -> String {
         format!("({condition} ? {then} : {other})")
     }
 
     fn bool_to_uint(&self, condition: &str) -> String {
         format!("uint({condition})")
-    }
-
-    fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
-        format!("{}_fetch_{ident}(site)", prefix.lower)
     }
 
     fn unary(&self, op: UnaryOp, a: &str) -> String {
@@ -160,13 +143,5 @@ impl Dialect for Glsl {
             Output::Vector(size) => format!("vec{size}({})", components.join(", ")),
             Output::List { max, .. } => format!("uint[{}]({})", max + 1, components.join(", ")),
         }
-    }
-
-    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
-        format!("{}({value}, {case})", prefix.result())
-    }
-
-    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
-        format!("{}_lookup({word})", prefix.lower)
     }
 }

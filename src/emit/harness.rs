@@ -93,12 +93,8 @@ pub fn wgsl_library(proved: &Proved<'_>, library: &str) -> String {
             _ => "0u",
         };
         let ty = Wgsl.ty(ty, &prefix);
-        let _ = writeln!(
-            out,
-            "fn {}_fetch_{ident}(site: {}) -> {ty} {{ return {zero}; }}",
-            prefix.lower,
-            prefix.site()
-        );
+        let _ =
+            writeln!(out, "fn {}_fetch_{ident}(site: {}) -> {ty} {{ return {zero}; }}", prefix.lower, prefix.site());
     }
     if reads_lookup(proved) {
         let _ = writeln!(out, "fn {}_lookup(word: u32) -> u32 {{ return 0u; }}", prefix.lower);

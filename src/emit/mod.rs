@@ -10,6 +10,7 @@ mod dialect;
 mod glsl;
 pub mod harness;
 mod module;
+mod names;
 mod rust;
 mod text;
 mod validate;

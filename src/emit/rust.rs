@@ -1,7 +1,7 @@
 //! Rust: a module of plain functions that needs nothing but `core` arithmetic
 //! and the floating-point functions of `std`.
 
-use super::dialect::{Dialect, Prefix, Type, call, decimal, infix};
+use super::dialect::{Dialect, Prefix, Type, call, infix};
 use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
 
 /// Rust.
@@ -24,7 +24,7 @@ impl Dialect for Rust {
 
     fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String {
         let mut out = format!(
-            "#[allow(non_snake_case, clippy::all, dead_code, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
+            "#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
             prefix.lower
         );
         if !fetches.is_empty() {
@@ -78,10 +78,6 @@ impl Dialect for Rust {
 
     fn case_default(&self) -> &'static str {
         "_ => {}"
-    }
-
-    fn number(&self, value: f64) -> String {
-        decimal(value)
     }
 
     fn uint(&self, value: u32) -> String {
@@ -160,7 +156,9 @@ impl Dialect for Rust {
             }
             TernaryOp::Smoothstep => {
                 let (a, b, c) = (wide(a), wide(b), wide(c));
-                format!("({{ let t = (({c} - {a}) / ({b} - {a})).max(0.0).min(1.0); (t * t * (3.0 - 2.0 * t)) as f32 }})")
+                format!(
+                    "({{ let t = (({c} - {a}) / ({b} - {a})).max(0.0).min(1.0); (t * t * (3.0 - 2.0 * t)) as f32 }})"
+                )
             }
         }
     }
@@ -174,9 +172,5 @@ impl Dialect for Rust {
 
     fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
         format!("{} {{ value: {value}, case_id: {case} }}", prefix.result())
-    }
-
-    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
-        format!("{}_lookup({word})", prefix.lower)
     }
 }

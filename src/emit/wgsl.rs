@@ -1,6 +1,6 @@
 //! WGSL.
 
-use super::dialect::{Dialect, Prefix, Type, call, decimal, infix};
+use super::dialect::{Dialect, Prefix, Type, call, infix};
 use crate::program::{BINARY_FUNCTIONS, BinaryOp, Output, TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp};
 
 /// WGSL, with nothing but functions, constants and one structure.
@@ -52,14 +52,6 @@ impl Dialect for Wgsl {
         format!("let {name} = {value};")
     }
 
-    fn if_open(&self, condition: &str) -> String {
-        format!("if ({condition}) {{")
-    }
-
-    fn switch_open(&self, selector: &str) -> String {
-        format!("switch ({selector}) {{")
-    }
-
     fn case_open(&self, values: &[u32]) -> String {
         let values: Vec<String> = values.iter().map(|v| self.uint(*v)).collect();
         format!("case {}: {{", values.join(", "))
@@ -69,24 +61,12 @@ impl Dialect for Wgsl {
         "default: {}"
     }
 
-    fn number(&self, value: f64) -> String {
-        decimal(value)
-    }
-
-    fn uint(&self, value: u32) -> String {
-        format!("{value}u")
-    }
-
     fn select(&self, condition: &str, then: &str, other: &str) -> String {
         format!("select({other}, {then}, {condition})")
     }
 
     fn bool_to_uint(&self, condition: &str) -> String {
         format!("u32({condition})")
-    }
-
-    fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
-        format!("{}_fetch_{ident}(site)", prefix.lower)
     }
 
     fn unary(&self, op: UnaryOp, a: &str) -> String {
@@ -114,13 +94,5 @@ impl Dialect for Wgsl {
             Output::Vector(size) => format!("vec{size}<f32>({})", components.join(", ")),
             Output::List { max, .. } => format!("array<u32, {}>({})", max + 1, components.join(", ")),
         }
-    }
-
-    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
-        format!("{}({value}, {case})", prefix.result())
-    }
-
-    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
-        format!("{}_lookup({word})", prefix.lower)
     }
 }

@@ -122,7 +122,13 @@ impl<'a, 'p> Kernel<'a, 'p> {
         Ok(outputs)
     }
 
-    fn run_chunk(&self, columns: &Columns<f32>, start: usize, end: usize, outputs: &mut Outputs) -> Result<(), Failure> {
+    fn run_chunk(
+        &self,
+        columns: &Columns<f32>,
+        start: usize,
+        end: usize,
+        outputs: &mut Outputs,
+    ) -> Result<(), Failure> {
         let gpu = self.gpu;
         let count = end - start;
         let storage = |label: &str, contents: &[u32]| {
@@ -136,7 +142,12 @@ impl<'a, 'p> Kernel<'a, 'p> {
         let fetched = (self.layout.fetched > 0).then(|| storage("fetched", &self.fetched_words(columns, start, end)));
         let size = (4 * count * self.layout.out) as u64;
         let buffer = |label: &str, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
         };
         // A new buffer is zeroed, so the counts of fetches start at zero.
         let out = buffer("out", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
@@ -212,12 +223,8 @@ impl<'a, 'p> Kernel<'a, 'p> {
     }
 
     fn fetched_words(&self, columns: &Columns<f32>, start: usize, end: usize) -> Vec<u32> {
-        let inputs: Vec<(InputId, bool)> = self
-            .program
-            .fetched
-            .iter()
-            .map(|input| (input, self.program.levels(input).is_some()))
-            .collect();
+        let inputs: Vec<(InputId, bool)> =
+            self.program.fetched.iter().map(|input| (input, self.program.levels(input).is_some())).collect();
         let mut words = Vec::with_capacity((end - start) * self.layout.fetched);
         for row in start..end {
             words.extend(inputs.iter().map(|(input, discrete)| match discrete {

@@ -22,6 +22,8 @@ const MAX_CONSTANT_KEYS: u32 = 12;
 const MAX_BUFFER_KEYS: u32 = 24;
 
 type Result<T> = std::result::Result<T, String>;
+/// Rows that may be taken, with what is left of their guards.
+type Guarded = Vec<(usize, CondId)>;
 type Next<'a, 'p> = &'a dyn Fn(&mut Builder<'p>, &Knowledge) -> Result<StepId>;
 
 struct Builder<'p> {
@@ -35,7 +37,7 @@ struct Builder<'p> {
 /// The ordered chain of guards, as written.
 pub(super) fn ladder(program: &Program) -> Result<Plan<'_>> {
     let mut builder = Builder::new(program);
-    let rows: Vec<(usize, CondId)> = program.rows.iter().enumerate().map(|(i, row)| (i, row.guard)).collect();
+    let rows: Guarded = program.rows.iter().enumerate().map(|(i, row)| (i, row.guard)).collect();
     let root = builder.rows(&rows, &Knowledge::none(program))?;
     Ok(builder.finish(Shape::Ladder, KeyLayout::new(program)?, Vec::new(), root))
 }
@@ -56,8 +58,9 @@ pub(super) fn switch(program: &Program, shape: Shape) -> Result<Plan<'_>> {
         ));
     }
     let mut builder = Builder::new(program);
-    let mut arms: Vec<(Vec<(usize, CondId)>, Vec<LevelSet>)> = Vec::new();
-    let mut arm_index: HashMap<Vec<(usize, CondId)>, u16> = HashMap::new();
+    // Each way to go, with the levels that occur on it.
+    let mut arms: Vec<(Guarded, Vec<LevelSet>)> = Vec::new();
+    let mut arm_index: HashMap<Guarded, u16> = HashMap::new();
     let mut lookup = Vec::with_capacity(program.states.count());
     let mut levels = vec![0; program.inputs.len()];
     for state in 0..program.states.count() {
@@ -121,7 +124,7 @@ impl<'p> Builder<'p> {
     }
 
     /// The rows that can be taken in a state, with what is left of their guards.
-    fn rows_of_state(&mut self, levels: &[u8]) -> Vec<(usize, CondId)> {
+    fn rows_of_state(&mut self, levels: &[u8]) -> Guarded {
         let program = self.program;
         let mut rows = Vec::new();
         let mut known = None;
@@ -169,9 +172,7 @@ impl<'p> Builder<'p> {
                     let (row, rest) = (*row, &rows[free + 1..]);
                     let yes = |me: &mut Self, known: &Knowledge| me.lines(row, 0, known);
                     // Later guards stay as written: only what was fetched is remembered.
-                    let no = |me: &mut Self, after: &Knowledge| {
-                        me.rows(rest, &known.with_fetched(after.fetched))
-                    };
+                    let no = |me: &mut Self, after: &Knowledge| me.rows(rest, &known.with_fetched(after.fetched));
                     me.branch(*guard, known, &yes, &no)?
                 }
             };
@@ -242,13 +243,7 @@ impl<'p> Builder<'p> {
     }
 
     /// Tests a condition, fetching what it needs in the order it needs it.
-    fn branch(
-        &mut self,
-        condition: CondId,
-        known: &Knowledge,
-        yes: Next<'_, 'p>,
-        no: Next<'_, 'p>,
-    ) -> Result<StepId> {
+    fn branch(&mut self, condition: CondId, known: &Knowledge, yes: Next<'_, 'p>, no: Next<'_, 'p>) -> Result<StepId> {
         self.descend(|me| me.branch_inner(condition, known, yes, no))
     }
 
@@ -282,12 +277,8 @@ impl<'p> Builder<'p> {
                 let (first, rest) = self.split(&parts, known, |pool, parts| pool.or(parts));
                 self.branch(first, known, yes, &|me, known| me.branch(rest, known, yes, no))
             }
-            Cond::If(c, a, b) => self.branch(
-                c,
-                known,
-                &|me, known| me.branch(a, known, yes, no),
-                &|me, known| me.branch(b, known, yes, no),
-            ),
+            Cond::If(c, a, b) => self
+                .branch(c, known, &|me, known| me.branch(a, known, yes, no), &|me, known| me.branch(b, known, yes, no)),
             Cond::Level(input, _) => self.fetch(input, known, condition, yes, no),
             Cond::Compare(_, a, b) => match self.lazy_choice(a, known).or_else(|| self.lazy_choice(b, known)) {
                 Some(choice) => {

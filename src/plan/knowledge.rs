@@ -123,7 +123,9 @@ impl Knowledge {
                     Some(true) => self.expr_memo(pool, a, memo),
                     Some(false) => self.expr_memo(pool, b, memo),
                     None => {
-                        let (a, b) = (self.expr_memo(pool, a, memo), self.expr_memo(pool, b, memo));
+                        // Each side knows how the choice went.
+                        let (yes, no) = (self.with(pool, c, true), self.with(pool, c, false));
+                        let (a, b) = (yes.expr(pool, a), no.expr(pool, b));
                         pool.select(c, a, b)
                     }
                 }

@@ -8,7 +8,6 @@
 mod build;
 mod key;
 mod knowledge;
-mod normal;
 pub mod prove;
 mod rounding;
 

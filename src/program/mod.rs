@@ -16,6 +16,7 @@
 
 mod domain;
 mod lower;
+pub(crate) mod normal;
 mod ops;
 mod pool;
 pub mod print;

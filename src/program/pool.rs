@@ -184,7 +184,12 @@ impl LevelSet {
 
     /// The levels, ascending.
     pub fn iter(self) -> impl Iterator<Item = u8> {
-        (0..64).filter(move |level| self.contains(*level))
+        let mut rest = self.0;
+        std::iter::from_fn(move || {
+            let level = (rest != 0).then(|| rest.trailing_zeros() as u8)?;
+            rest &= rest - 1;
+            Some(level)
+        })
     }
 }
 
@@ -256,7 +261,12 @@ impl InputSet {
 
     /// The inputs, ascending.
     pub fn iter(self) -> impl Iterator<Item = InputId> {
-        (0..Self::CAPACITY).map(InputId::new).filter(move |i| self.contains(*i))
+        let mut rest = self.0;
+        std::iter::from_fn(move || {
+            let input = (rest != 0).then(|| InputId::new(rest.trailing_zeros() as usize))?;
+            rest &= rest - 1;
+            Some(input)
+        })
     }
 }
 
@@ -269,11 +279,13 @@ pub struct Facts {
     pub size: u32,
     /// Every input that is mentioned.
     pub inputs: InputSet,
+    /// Whether there is a selection anywhere in it.
+    pub selects: bool,
 }
 
 impl Facts {
     fn leaf(inputs: InputSet) -> Self {
-        Self { depth: 1, size: 1, inputs }
+        Self { depth: 1, size: 1, inputs, selects: false }
     }
 
     fn join(parts: impl IntoIterator<Item = Facts>) -> Self {
@@ -281,6 +293,7 @@ impl Facts {
             depth: all.depth.max(part.depth.saturating_add(1)),
             size: all.size.saturating_add(part.size),
             inputs: all.inputs.or(part.inputs),
+            selects: all.selects || part.selects,
         })
     }
 }
@@ -354,7 +367,10 @@ impl Pool {
             Node::Unary(_, a) => Facts::join([self.expr_facts(a)]),
             Node::Binary(_, a, b) => Facts::join([self.expr_facts(a), self.expr_facts(b)]),
             Node::Ternary(_, a, b, c) => Facts::join([self.expr_facts(a), self.expr_facts(b), self.expr_facts(c)]),
-            Node::Select(c, a, b) => Facts::join([self.cond_facts(c), self.expr_facts(a), self.expr_facts(b)]),
+            Node::Select(c, a, b) => {
+                let facts = Facts::join([self.cond_facts(c), self.expr_facts(a), self.expr_facts(b)]);
+                Facts { selects: true, ..facts }
+            }
         };
         let id = ExprId(self.exprs.len() as u32);
         self.exprs.push((node, facts));

@@ -22,7 +22,46 @@ pub(super) struct Raw<'a>(&'a str);
 impl<'de: 'a, 'a> Deserialize<'de> for Raw<'a> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let raw: &'a RawValue = Deserialize::deserialize(deserializer)?;
-        Ok(Raw(raw.trim().get_ron()))
+        Ok(Raw(trim(raw.get_ron())))
+    }
+}
+
+/// Without the white space and comments in front, and the white space behind.
+/// (`RawValue::trim` does the same by parsing the piece once more.)
+fn trim(text: &str) -> &str {
+    let mut rest = text.trim();
+    loop {
+        let after = if rest.starts_with("//") {
+            rest.find('\n').map(|end| &rest[end..])
+        } else if rest.starts_with("/*") {
+            block_comment_end(rest).map(|end| &rest[end..])
+        } else {
+            None
+        };
+        match after {
+            Some(after) => rest = after.trim_start(),
+            None => return rest,
+        }
+    }
+}
+
+/// Where the block comment at the start of a text ends; they nest.
+fn block_comment_end(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    let mut at = 0;
+    loop {
+        if text[at..].starts_with("/*") {
+            depth += 1;
+            at += 2;
+        } else if text[at..].starts_with("*/") {
+            depth -= 1;
+            at += 2;
+        } else {
+            at += text[at..].chars().next()?.len_utf8();
+        }
+        if depth == 0 {
+            return Some(at);
+        }
     }
 }
 
@@ -117,9 +156,12 @@ impl<'a> Reader<'a> {
 
     /// A word in quotes or bare: `"left"`, `left`, `0.5`, `true`.
     pub(super) fn word(&self, raw: Raw<'a>) -> Result<Spanned<String>, Diagnostic> {
-        match raw.0.starts_with(['"', 'r']) && raw.0.ends_with(['"', '#']) {
-            true => self.spanned(raw),
-            false => Ok(Spanned::new(self.span(raw), raw.0.to_owned())),
+        let quoted = raw.0.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+        match quoted {
+            // Most words; reading them as RON would only cost time.
+            Some(word) if !word.contains(['\\', '"']) => Ok(Spanned::new(self.span(raw), word.to_owned())),
+            _ if raw.0.starts_with(['"', 'r']) && raw.0.ends_with(['"', '#']) => self.spanned(raw),
+            _ => Ok(Spanned::new(self.span(raw), raw.0.to_owned())),
         }
     }
 

@@ -94,11 +94,16 @@ fn bless(steps: &mut Steps) -> Result {
     steps.run("snapshots", snapshots)
 }
 
-/// The benchmarks.
+/// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.
+/// None needs wgpu, so none builds it.
 fn bench(steps: &mut Steps, arguments: &[String]) -> Result {
-    let mut command = cargo(&["bench", "--package", "umbrage", "--bench", "*"]);
-    command.args(arguments);
-    steps.run("benchmarks", command)
+    let mut optimised = cargo(&["bench", "--package", "umbrage", "--no-default-features"]);
+    optimised.args(arguments);
+    steps.run("benchmarks", optimised)?;
+    let profile = ["bench", "--package", "umbrage", "--no-default-features", "--profile", "unoptimised"];
+    let mut unoptimised = cargo(&profile);
+    unoptimised.args(["--bench", "compile"]).args(arguments);
+    steps.run("benchmarks without optimisation", unoptimised)
 }
 
 // What the tests need from the system

@@ -11,19 +11,20 @@ use std::collections::{BTreeMap, HashMap};
 use num_rational::Ratio;
 use num_traits::{CheckedAdd, CheckedMul, Signed, Zero};
 
-use crate::program::{BinaryOp, ExprId, InputId, Node, Pool, TernaryOp, UnaryOp};
+use super::{BinaryOp, ExprId, InputId, Node, Pool, TernaryOp, UnaryOp};
 
-type Rational = Ratio<i128>;
+pub(crate) type Rational = Ratio<i128>;
 
 /// Most affine forms in one normal form; beyond it the form is given up.
 const MAX_FORMS: usize = 256;
 
 /// Number of a normal form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct NormalId(u32);
+pub(crate) struct NormalId(u32);
 
+/// What an affine form is linear in.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-enum Term {
+pub(crate) enum Term {
     Input(InputId),
     /// A constant without an exact rational in range.
     Constant(u64),
@@ -34,9 +35,9 @@ enum Term {
 
 /// A constant plus multiples of terms.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-struct Affine {
-    terms: BTreeMap<Term, Rational>,
-    constant: Rational,
+pub(crate) struct Affine {
+    pub(crate) terms: BTreeMap<Term, Rational>,
+    pub(crate) constant: Rational,
 }
 
 /// A minimum of maxima; both lists are sorted and not empty.
@@ -44,7 +45,7 @@ type Lattice = Vec<Vec<Affine>>;
 
 /// Makes normal forms. Selections must have been resolved before.
 #[derive(Debug, Default)]
-pub(super) struct Normaliser {
+pub(crate) struct Normaliser {
     forms: Vec<Lattice>,
     index: HashMap<Lattice, NormalId>,
     memo: HashMap<ExprId, Option<NormalId>>,
@@ -52,13 +53,25 @@ pub(super) struct Normaliser {
 
 impl Normaliser {
     /// The normal form of an expression without selections, unless it gets too large.
-    pub(super) fn normal(&mut self, pool: &Pool, expr: ExprId) -> Option<NormalId> {
+    pub(crate) fn normal(&mut self, pool: &Pool, expr: ExprId) -> Option<NormalId> {
         if let Some(done) = self.memo.get(&expr) {
             return *done;
         }
         let result = self.lattice(pool, expr).map(|form| self.intern(form));
         self.memo.insert(expr, result);
         result
+    }
+
+    /// The expression as one affine form, if it is one.
+    pub(crate) fn affine(&mut self, pool: &Pool, expr: ExprId) -> Option<Affine> {
+        let id = self.normal(pool, expr)?;
+        match self.forms[id.0 as usize].as_slice() {
+            [clause] => match clause.as_slice() {
+                [affine] => Some(affine.clone()),
+                _ => None,
+            },
+            _ => None,
+        }
     }
 
     fn intern(&mut self, form: Lattice) -> NormalId {
@@ -149,7 +162,7 @@ fn one() -> Rational {
 }
 
 /// The exact rational of a double, if numerator and denominator are moderate.
-fn rational(value: f64) -> Option<Rational> {
+pub(crate) fn rational(value: f64) -> Option<Rational> {
     if value == 0.0 {
         return Some(Rational::zero());
     }
@@ -194,7 +207,7 @@ fn value(form: &Lattice) -> Option<Rational> {
 }
 
 impl Affine {
-    fn plus(&self, other: &Affine) -> Option<Affine> {
+    pub(crate) fn plus(&self, other: &Affine) -> Option<Affine> {
         let mut terms = self.terms.clone();
         for (term, factor) in &other.terms {
             let sum = terms.get(term).copied().unwrap_or_else(Rational::zero).checked_add(factor)?;
@@ -207,7 +220,7 @@ impl Affine {
         Some(Affine { terms, constant: self.constant.checked_add(&other.constant)? })
     }
 
-    fn times(&self, factor: Rational) -> Option<Affine> {
+    pub(crate) fn times(&self, factor: Rational) -> Option<Affine> {
         let terms = self.terms.iter().map(|(term, f)| Some((term.clone(), f.checked_mul(&factor)?)));
         Some(Affine { terms: terms.collect::<Option<_>>()?, constant: self.constant.checked_mul(&factor)? })
     }

@@ -1,0 +1,158 @@
+//! Whether linear constraints can hold together, over the reals: elimination
+//! after Fourier and Motzkin, with exact rationals.
+//!
+//! A table has few continuous inputs and a path few comparisons, so the
+//! method's bad worst case does not matter. What is not linear (a product of
+//! inputs, a square root) is a variable of its own that could be anything: an
+//! answer "cannot hold" is always right, "can hold" is then not certain.
+
+use num_traits::{CheckedMul, Signed, Zero};
+
+use crate::program::normal::{Affine, Rational, Term, rational};
+use crate::program::{Domain, Program};
+
+/// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
+const MAX_CONSTRAINTS: usize = 512;
+
+/// Which sign a form has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sign {
+    Positive,
+    Zero,
+    Negative,
+}
+
+impl Sign {
+    pub(super) const ALL: [Sign; 3] = [Sign::Positive, Sign::Zero, Sign::Negative];
+
+    pub(super) fn of(number: Rational) -> Self {
+        if number.is_zero() {
+            Sign::Zero
+        } else if number.is_positive() {
+            Sign::Positive
+        } else {
+            Sign::Negative
+        }
+    }
+
+    pub(super) fn flip(self) -> Self {
+        match self {
+            Sign::Positive => Sign::Negative,
+            Sign::Zero => Sign::Zero,
+            Sign::Negative => Sign::Positive,
+        }
+    }
+}
+
+/// `form > 0` if strict, else `form >= 0`.
+struct Constraint {
+    form: Affine,
+    strict: bool,
+}
+
+/// Whether the forms can have these signs at one point of the program's domain.
+pub(super) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> bool {
+    feasible(program, signs).unwrap_or(true)
+}
+
+/// The same; `None` if numbers or their count grow too large.
+fn feasible<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> Option<bool> {
+    let minus = Rational::from_integer(-1);
+    let mut constraints = Vec::new();
+    for (form, sign) in signs {
+        let strict = sign != Sign::Zero;
+        if sign != Sign::Negative {
+            constraints.push(Constraint { form: form.clone(), strict });
+        }
+        if sign != Sign::Positive {
+            constraints.push(Constraint { form: form.times(minus)?, strict });
+        }
+    }
+    let mut variables: Vec<Term> = constraints.iter().flat_map(|c| c.form.terms.keys().cloned()).collect();
+    variables.sort();
+    variables.dedup();
+    for variable in &variables {
+        let Term::Input(input) = variable else { continue };
+        if let Domain::Continuous { lo, hi, .. } = program.inputs[input.index()].domain {
+            let one = Rational::from_integer(1);
+            let bound = |factor: Rational, constant: Rational| Constraint {
+                form: Affine { terms: [(variable.clone(), factor)].into(), constant },
+                strict: false,
+            };
+            constraints.extend(rational(lo).map(|lo| bound(one, -lo)));
+            constraints.extend(rational(hi).map(|hi| bound(minus, hi)));
+        }
+    }
+    for variable in &variables {
+        let (mut above, mut below, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+        for constraint in constraints {
+            match constraint.form.terms.get(variable) {
+                Some(factor) if factor.is_positive() => above.push(constraint),
+                Some(_) => below.push(constraint),
+                None if !constraint.form.terms.is_empty() => kept.push(constraint),
+                None if constraint.violated() => return Some(false),
+                None => {}
+            }
+        }
+        for a in &above {
+            for b in &below {
+                kept.push(a.without(variable, b)?);
+            }
+        }
+        if kept.len() > MAX_CONSTRAINTS {
+            return None;
+        }
+        constraints = kept;
+    }
+    Some(!constraints.iter().any(Constraint::violated))
+}
+
+impl Constraint {
+    /// Whether this constraint, which has no variable left, does not hold.
+    fn violated(&self) -> bool {
+        self.form.constant.is_negative() || self.strict && self.form.constant.is_zero()
+    }
+
+    /// What two constraints that bound a variable from either side say without it.
+    fn without(&self, variable: &Term, other: &Self) -> Option<Self> {
+        let (a, b) = (self.form.terms[variable], other.form.terms[variable].abs());
+        debug_assert!(a.checked_mul(&b).is_none_or(|product| product.is_positive()));
+        let form = self.form.times(b)?.plus(&other.form.times(a)?)?;
+        Some(Self { form, strict: self.strict || other.strict })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Source;
+    use crate::program::InputId;
+    use crate::table::Table;
+
+    fn affine(x: i128, y: i128, constant: i128) -> Affine {
+        let terms = [(0, x), (1, y)].into_iter().filter(|(_, factor)| *factor != 0);
+        Affine {
+            terms: terms.map(|(i, f)| (Term::Input(InputId::new(i)), Rational::from_integer(f))).collect(),
+            constant: Rational::from_integer(constant),
+        }
+    }
+
+    #[test]
+    fn constraints_and_the_domain_are_put_together() {
+        let text = r#"Table(language: 1, name: "t", hit_policy: First,
+            inputs: {"x": Range(from: 0, to: 1), "y": Range(from: 0, to: 1)},
+            output: Number(), cases: [Case(id: 1, when: "x < y", value: 1)], default: 0)"#;
+        let table = Table::parse(Source::new("t", text)).unwrap_or_else(|e| panic!("{e}"));
+        let program = Program::check(&table).unwrap_or_else(|e| panic!("{e}"));
+        let can = |signs: &[(Affine, Sign)]| can_hold(&program, signs.iter().map(|(form, sign)| (form, *sign)));
+        use Sign::{Negative, Positive, Zero};
+        assert!(can(&[(affine(1, 1, -2), Zero)]));
+        assert!(!can(&[(affine(1, 1, -2), Positive)]));
+        assert!(!can(&[(affine(1, 0, 0), Negative)]));
+        // x > y and y > x; x > y, y = 1; x + y = 1, x - y = 0, x > 0 (the middle).
+        assert!(!can(&[(affine(1, -1, 0), Positive), (affine(1, -1, 0), Negative)]));
+        assert!(!can(&[(affine(1, -1, 0), Positive), (affine(0, 1, -1), Zero)]));
+        assert!(can(&[(affine(1, 1, -1), Zero), (affine(1, -1, 0), Zero), (affine(1, 0, 0), Positive)]));
+        assert!(!can(&[(affine(1, 1, -1), Zero), (affine(1, -1, 0), Zero), (affine(2, 0, -1), Positive)]));
+    }
+}

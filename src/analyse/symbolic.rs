@@ -1,0 +1,462 @@
+//! Runs a program symbolically, along every path of a state.
+//!
+//! A state fixes the discrete inputs that are not fetched. What it leaves
+//! open (the level of a fetched input, the sign of a difference of numbers) is
+//! a question; a [`Machine`] answers equal questions equally and goes through
+//! all answers in turn, each sequence of which is a path. Unlike the prover of
+//! plans, which compares bits and so takes different-looking comparisons for
+//! independent, this looks at the real numbers: a comparison is the sign of an
+//! affine form, and only answers that can hold together somewhere in the
+//! domain are given. For tables that are piecewise linear all that is found
+//! here is therefore exact.
+
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+
+use num_traits::Signed;
+
+use super::region::{self, Sign};
+use crate::program::normal::{Affine, Normaliser, Term};
+use crate::program::print::Printer;
+use crate::program::{
+    BinaryOp, Comparison, Cond, CondId, ExprId, InputId, LevelSet, LevelTerm, Node, Pool, Program, Symmetry, TernaryOp,
+    UnaryOp, Value,
+};
+
+/// Most paths of one state that are looked at. Published tables have a few dozen.
+const MAX_PATHS: usize = 1 << 14;
+
+/// What the inputs mean: themselves, or their images under a symmetry.
+#[derive(Clone, Copy, Default)]
+pub(super) struct View<'s> {
+    /// Whose images the inputs stand for.
+    pub(super) symmetry: Option<&'s Symmetry>,
+    /// What the result stands for, in the result map of a symmetry.
+    pub(super) result: Option<ExprId>,
+}
+
+impl View<'_> {
+    /// The inputs themselves.
+    pub(super) const PLAIN: Self = View { symmetry: None, result: None };
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Question {
+    /// The level of a fetched input.
+    Level(InputId),
+    /// The sign of an affine form, by its number.
+    Sign(usize),
+    /// A comparison that is no such thing.
+    Compare(Comparison, ExprId, ExprId),
+}
+
+struct Choice {
+    question: Question,
+    answer: u8,
+    /// Answers that are still to come.
+    rest: LevelSet,
+    /// For the sign of a form: what was compared, and whether the form is a
+    /// negative multiple of the second less the first.
+    compared: Option<(ExprId, ExprId, bool)>,
+}
+
+/// Runs a program along paths.
+pub(super) struct Machine<'p> {
+    program: &'p Program,
+    pool: Pool,
+    normaliser: Normaliser,
+    levels: Vec<u8>,
+    choices: Vec<Choice>,
+    /// The forms asked for, and their numbers. Multiples of a form share one.
+    forms: Vec<Affine>,
+    form_index: HashMap<Affine, usize>,
+    differences: HashMap<ExprId, Option<Difference>>,
+    /// Signs that the last of some forms can have, given those of the others.
+    possible: HashMap<Vec<(usize, u8)>, LevelSet>,
+    gave_up: bool,
+}
+
+/// What a difference of two numbers is.
+#[derive(Clone, Copy)]
+enum Difference {
+    Constant(Sign),
+    /// A multiple of a form.
+    Form {
+        number: usize,
+        negative: bool,
+    },
+}
+
+impl<'p> Machine<'p> {
+    pub(super) fn new(program: &'p Program) -> Self {
+        Self {
+            program,
+            pool: program.pool.clone(),
+            normaliser: Normaliser::default(),
+            levels: vec![0; program.inputs.len()],
+            choices: Vec::new(),
+            forms: Vec::new(),
+            form_index: HashMap::new(),
+            differences: HashMap::new(),
+            possible: HashMap::new(),
+            gave_up: false,
+        }
+    }
+
+    /// Follows every path of a state, until told to stop. Returns whether it was.
+    /// A state with too many paths is given up; [`Self::gave_up`] tells.
+    pub(super) fn any_path(&mut self, state: usize, mut path: impl FnMut(&mut Self) -> ControlFlow<()>) -> bool {
+        self.program.states.write(state, &mut self.levels);
+        self.choices.clear();
+        self.gave_up = false;
+        for _ in 0..MAX_PATHS {
+            if path(self).is_break() {
+                return true;
+            }
+            if !self.advance() {
+                return false;
+            }
+        }
+        self.gave_up = true;
+        false
+    }
+
+    /// Whether the last state had more paths than were followed.
+    pub(super) fn gave_up(&self) -> bool {
+        self.gave_up
+    }
+
+    fn advance(&mut self) -> bool {
+        while let Some(choice) = self.choices.last_mut() {
+            if let Some(next) = choice.rest.iter().next() {
+                choice.answer = next;
+                choice.rest.0 &= !(1 << next);
+                return true;
+            }
+            self.choices.pop();
+        }
+        false
+    }
+
+    /// The answer on this path; a new question is first answered with the lowest of `possible`.
+    fn answer(&mut self, question: Question, possible: LevelSet, compared: Option<(ExprId, ExprId, bool)>) -> u8 {
+        if let Some(choice) = self.choices.iter().find(|choice| choice.question == question) {
+            return choice.answer;
+        }
+        let answer = possible.0.trailing_zeros() as u8;
+        self.choices.push(Choice { question, answer, rest: LevelSet(possible.0 & !(1 << answer)), compared });
+        answer
+    }
+
+    fn level(&mut self, input: InputId, view: View<'_>) -> u8 {
+        if let Some(symmetry) = view.symmetry
+            && let Some((_, image)) = symmetry.levels.iter().find(|(mapped, _)| *mapped == input)
+        {
+            return self.level_term(image);
+        }
+        match self.program.levels(input) {
+            Some(levels) if self.program.fetched.contains(input) => {
+                self.answer(Question::Level(input), LevelSet::all(levels.count()), None)
+            }
+            _ => self.levels[input.index()],
+        }
+    }
+
+    /// Images are written in terms of the inputs themselves.
+    fn level_term(&mut self, term: &LevelTerm) -> u8 {
+        match term {
+            LevelTerm::Const(level) => *level,
+            LevelTerm::Input(input) => self.level(*input, View::PLAIN),
+            LevelTerm::If(condition, then, other) => {
+                let chosen = if self.holds(*condition, View::PLAIN) { then } else { other };
+                self.level_term(chosen)
+            }
+            LevelTerm::Map(inner, renaming) => renaming[usize::from(self.level_term(inner))],
+        }
+    }
+
+    /// Whether a condition holds on this path.
+    pub(super) fn holds(&mut self, condition: CondId, view: View<'_>) -> bool {
+        // Resolving makes expressions but no conditions, so the program has them all.
+        let program = self.program;
+        match program.pool.cond(condition) {
+            Cond::Const(value) => *value,
+            Cond::Level(input, levels) => levels.contains(self.level(*input, view)),
+            Cond::Compare(op, a, b) => {
+                let (a, b) = (self.resolve(*a, view), self.resolve(*b, view));
+                self.compare(*op, a, b)
+            }
+            Cond::Not(a) => !self.holds(*a, view),
+            Cond::And(parts) => parts.iter().all(|part| self.holds(*part, view)),
+            Cond::Or(parts) => parts.iter().any(|part| self.holds(*part, view)),
+            Cond::If(c, a, b) => {
+                let chosen = if self.holds(*c, view) { a } else { b };
+                self.holds(*chosen, view)
+            }
+        }
+    }
+
+    fn compare(&mut self, op: Comparison, a: ExprId, b: ExprId) -> bool {
+        match self.sign(a, b) {
+            Some(sign) => match op {
+                Comparison::Less => sign == Sign::Positive,
+                Comparison::LessEqual => sign != Sign::Negative,
+                Comparison::Equal => sign == Sign::Zero,
+            },
+            None => self.answer(Question::Compare(op, a, b), LevelSet(0b11), None) == 0,
+        }
+    }
+
+    /// The sign of `b - a` on this path; `None` if the difference has no affine form.
+    fn sign(&mut self, a: ExprId, b: ExprId) -> Option<Sign> {
+        let (a, b) = (self.flatten(a), self.flatten(b));
+        let difference = self.pool.binary(BinaryOp::Subtract, b, a);
+        let (number, negative) = match self.difference(difference)? {
+            Difference::Constant(sign) => return Some(sign),
+            Difference::Form { number, negative } => (number, negative),
+        };
+        let question = Question::Sign(number);
+        let known = self.choices.iter().find(|choice| choice.question == question).map(|choice| choice.answer);
+        let answer = match known {
+            Some(answer) => answer,
+            None => {
+                let possible = self.possible_signs(number);
+                self.answer(question, possible, Some((a, b, negative)))
+            }
+        };
+        let sign = Sign::ALL[usize::from(answer)];
+        Some(if negative { sign.flip() } else { sign })
+    }
+
+    fn difference(&mut self, expr: ExprId) -> Option<Difference> {
+        if let Some(known) = self.differences.get(&expr) {
+            return *known;
+        }
+        let difference = self.normaliser.affine(&self.pool, expr).and_then(|form| {
+            let Some(leading) = form.terms.values().next().copied() else {
+                return Some(Difference::Constant(Sign::of(form.constant)));
+            };
+            let form = form.times(leading.recip())?;
+            let number = *self.form_index.entry(form).or_insert_with_key(|form| {
+                self.forms.push(form.clone());
+                self.forms.len() - 1
+            });
+            Some(Difference::Form { number, negative: leading.is_negative() })
+        });
+        self.differences.insert(expr, difference);
+        difference
+    }
+
+    /// The signs that a form can have, given the answers so far.
+    fn possible_signs(&mut self, form: usize) -> LevelSet {
+        let signs = self.choices.iter().filter_map(|choice| match choice.question {
+            Question::Sign(form) => Some((form, choice.answer)),
+            _ => None,
+        });
+        let mut key: Vec<(usize, u8)> = signs.chain([(form, 0)]).collect();
+        if let Some(known) = self.possible.get(&key) {
+            return *known;
+        }
+        let mut possible = LevelSet(0);
+        let last = key.len() - 1;
+        for sign in 0..Sign::ALL.len() as u8 {
+            key[last].1 = sign;
+            let signs = key.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+            if region::can_hold(self.program, signs) {
+                possible.0 |= 1 << sign;
+            }
+        }
+        // One of them always can, as the earlier answers could; this is for arithmetic that gave up before.
+        if possible.0 == 0 {
+            possible = LevelSet::all(Sign::ALL.len());
+        }
+        key[last].1 = 0;
+        self.possible.insert(key, possible);
+        possible
+    }
+
+    /// An expression with selections decided and images put in.
+    pub(super) fn resolve(&mut self, expr: ExprId, view: View<'_>) -> ExprId {
+        if view.symmetry.is_none() && view.result.is_none() && !self.pool.expr_facts(expr).selects {
+            return expr;
+        }
+        self.resolve_memo(expr, view, &mut HashMap::new())
+    }
+
+    fn resolve_memo(&mut self, expr: ExprId, view: View<'_>, memo: &mut HashMap<ExprId, ExprId>) -> ExprId {
+        if let Some(done) = memo.get(&expr) {
+            return *done;
+        }
+        let result = match self.pool.node(expr) {
+            Node::Const(_) => return expr,
+            Node::Result => view.result.unwrap_or(expr),
+            Node::Input(input) => {
+                let image = view.symmetry.and_then(|s| s.numbers.iter().find(|(mapped, _)| *mapped == input));
+                match image {
+                    Some((_, image)) => self.resolve(*image, View::PLAIN),
+                    None => expr,
+                }
+            }
+            Node::Unary(op, a) => {
+                let a = self.resolve_memo(a, view, memo);
+                self.pool.unary(op, a)
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.resolve_memo(a, view, memo), self.resolve_memo(b, view, memo));
+                self.pool.binary(op, a, b)
+            }
+            Node::Ternary(op, a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|part| self.resolve_memo(part, view, memo));
+                self.pool.ternary(op, a, b, c)
+            }
+            Node::Select(c, a, b) => {
+                let chosen = if self.holds(c, view) { a } else { b };
+                self.resolve_memo(chosen, view, memo)
+            }
+        };
+        memo.insert(expr, result);
+        result
+    }
+
+    /// A resolved expression with every minimum and maximum decided, so that it is affine if it can be.
+    fn flatten(&mut self, expr: ExprId) -> ExprId {
+        match self.pool.node(expr) {
+            Node::Const(_) | Node::Result | Node::Input(_) | Node::Select(..) => expr,
+            Node::Unary(op, a) => {
+                let a = self.flatten(a);
+                let zero = self.pool.number(0.0);
+                match op {
+                    UnaryOp::Abs => {
+                        let negated = self.pool.unary(UnaryOp::Negate, a);
+                        self.larger(a, negated)
+                    }
+                    UnaryOp::Saturate => {
+                        let one = self.pool.number(1.0);
+                        let raised = self.larger(a, zero);
+                        self.smaller(raised, one)
+                    }
+                    _ => self.pool.unary(op, a),
+                }
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.flatten(a), self.flatten(b));
+                match op {
+                    BinaryOp::Min => self.smaller(a, b),
+                    BinaryOp::Max => self.larger(a, b),
+                    _ => self.pool.binary(op, a, b),
+                }
+            }
+            Node::Ternary(op, a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|part| self.flatten(part));
+                match op {
+                    TernaryOp::Clamp => {
+                        let raised = self.larger(a, b);
+                        self.smaller(raised, c)
+                    }
+                    _ => self.pool.ternary(op, a, b, c),
+                }
+            }
+        }
+    }
+
+    fn smaller(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        match self.sign(a, b) {
+            Some(Sign::Positive | Sign::Zero) => a,
+            Some(Sign::Negative) => b,
+            None => self.pool.binary(BinaryOp::Min, a, b),
+        }
+    }
+
+    fn larger(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        match self.sign(a, b) {
+            Some(Sign::Positive | Sign::Zero) => b,
+            Some(Sign::Negative) => a,
+            None => self.pool.binary(BinaryOp::Max, a, b),
+        }
+    }
+
+    /// Whether two resolved results are equal on this path, over the reals.
+    pub(super) fn equal(&mut self, a: &[ExprId], b: &[ExprId]) -> bool {
+        a.iter().zip(b).all(|(a, b)| self.equal_numbers(*a, *b))
+    }
+
+    fn equal_numbers(&mut self, a: ExprId, b: ExprId) -> bool {
+        if a == b {
+            return true;
+        }
+        let forms = (self.normaliser.normal(&self.pool, a), self.normaliser.normal(&self.pool, b));
+        if let (Some(a), Some(b)) = forms
+            && a == b
+        {
+            return true;
+        }
+        // Different forms may still agree on what the path leaves of the domain.
+        self.sign(a, b) == Some(Sign::Zero)
+    }
+
+    /// Whether the guards of two rows hold on this path.
+    pub(super) fn both_hold(&mut self, first: usize, second: usize) -> bool {
+        let rows = &self.program.rows;
+        self.holds(rows[first].guard, View::PLAIN) && self.holds(rows[second].guard, View::PLAIN)
+    }
+
+    /// The value of a row on this path, its guard aside: the first line that applies, else the default.
+    pub(super) fn row_values(&mut self, row: usize, view: View<'_>) -> Vec<ExprId> {
+        let program = self.program;
+        let line = program.rows[row].lines.iter().find(|line| self.holds(line.condition, view));
+        let values = line.map_or(&program.default, |line| &line.values);
+        values.iter().map(|value| self.resolve(*value, view)).collect()
+    }
+
+    /// The row taken and the result on this path.
+    pub(super) fn run(&mut self, view: View<'_>) -> (Option<usize>, Vec<ExprId>) {
+        let program = self.program;
+        match program.rows.iter().position(|row| self.holds(row.guard, view)) {
+            Some(row) => (Some(row), self.row_values(row, view)),
+            None => (None, program.default.iter().map(|value| self.resolve(*value, view)).collect()),
+        }
+    }
+
+    /// The path in table notation: the state, then what was asked.
+    pub(super) fn describe(&self) -> String {
+        let inputs = &self.program.inputs;
+        let level = |input: InputId, level: u8| {
+            let input = &inputs[input.index()];
+            format!("{} = {}", input.name, input.show(Value::Level(level)))
+        };
+        let state = self.program.states.digits().iter().map(|(input, _)| level(*input, self.levels[input.index()]));
+        let printer = Printer { pool: &self.pool, inputs };
+        let asked = self.choices.iter().map(|choice| match (&choice.question, choice.compared) {
+            (Question::Level(input), _) => level(*input, choice.answer),
+            (Question::Sign(_), Some((a, b, negative))) => {
+                let sign = Sign::ALL[usize::from(choice.answer)];
+                let symbol = match if negative { sign.flip() } else { sign } {
+                    Sign::Positive => "<",
+                    Sign::Zero => "==",
+                    Sign::Negative => ">",
+                };
+                format!("{} {symbol} {}", printer.expr(a), printer.expr(b))
+            }
+            (Question::Compare(op, a, b), _) => {
+                let symbol = match op {
+                    Comparison::Less => "<",
+                    Comparison::LessEqual => "<=",
+                    Comparison::Equal => "==",
+                };
+                let outcome = if choice.answer == 0 { "holds" } else { "does not hold" };
+                format!("{} {symbol} {} {outcome}", printer.expr(*a), printer.expr(*b))
+            }
+            (Question::Sign(_), None) => String::new(),
+        });
+        state.chain(asked).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Whether the path is sure to be taken by some inputs: everything asked was linear in them.
+    pub(super) fn certain(&self) -> bool {
+        self.choices.iter().all(|choice| match choice.question {
+            Question::Level(_) => true,
+            Question::Sign(form) => self.forms[form].terms.keys().all(|term| matches!(term, Term::Input(_))),
+            Question::Compare(..) => false,
+        })
+    }
+}
