@@ -307,27 +307,57 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Renders diagnostics as plain text, each followed by an empty line.
+/// Most diagnostics that people are shown at once.
+const SHOWN: usize = 50;
+
+/// The diagnostics that are shown, and a line about the others.
+fn shown(diagnostics: &[Diagnostic]) -> (&[Diagnostic], Option<String>) {
+    match diagnostics.split_at_checked(SHOWN) {
+        Some((first, rest)) if !rest.is_empty() => (first, Some(format!("and {} more\n", rest.len()))),
+        _ => (diagnostics, None),
+    }
+}
+
+/// Renders diagnostics as plain text, each followed by an empty line. Of very many
+/// only the first ones are shown.
 pub fn render(source: &Source, diagnostics: &[Diagnostic]) -> String {
     let mut text = String::new();
-    for diagnostic in diagnostics {
+    let (first, more) = shown(diagnostics);
+    for diagnostic in first {
         // Writing to a string cannot fail, and every span was made from this source.
         let _ = diagnostic.render(source, &mut Writer::Plain(&mut text));
     }
+    text.extend(more);
     text
 }
 
-/// Renders diagnostics with colours to a terminal.
+/// Renders diagnostics with colours to a terminal, as many as [`render`] does.
 pub fn render_styled(source: &Source, diagnostics: &[Diagnostic], out: &mut dyn term::WriteStyle) {
-    for diagnostic in diagnostics {
+    let (first, more) = shown(diagnostics);
+    for diagnostic in first {
         // A terminal that went away is not an error of the table.
         let _ = diagnostic.render(source, &mut Writer::Styled(out));
+    }
+    if let Some(more) = more {
+        let _ = out.write_all(more.as_bytes());
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_the_first_of_very_many_are_rendered() {
+        let many = |count: usize| {
+            let one = Diagnostic::error(codes::TYPE, "wrong").at(Span::new(0, 1), "here");
+            Failure { source: Source::new("t", "x"), diagnostics: vec![one; count] }.to_string()
+        };
+        assert_eq!(many(50).matches("wrong").count(), 50);
+        assert!(!many(50).contains(" more"));
+        assert_eq!(many(75).matches("wrong").count(), 50);
+        assert!(many(75).ends_with("\nand 25 more"), "{}", many(75));
+    }
 
     #[test]
     fn lines_and_columns_count_characters_from_one() {

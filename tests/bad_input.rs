@@ -127,6 +127,10 @@ fn fields() {
     says!("variant_unknown", refused("Bool(),", "Boolean(),"));
     says!("case_without_value", refused(", value: \"1 - x\"", ""));
     says!("hit_policy", refused("hit_policy: First", "hit_policy: Any"));
+    says!("hit_policy_with_more", refused("hit_policy: First", "hit_policy: First(3)"));
+    says!("default_with_more", refused("\"right\": 0.5})", "\"right\": 0.5}, default: left(5))"));
+    says!("enumeration_of_condition", refused("Number()", "Enumeration(of: \"far\")"));
+    says!("list_of_condition", refused("Number()", "List(of: \"seen\", max: 2)"));
 }
 
 #[test]
@@ -157,6 +161,16 @@ fn expressions() {
     says!("remainder_of_zero", refused("1 - x", "x % 0"));
     says!("too_large", refused("1 - x", "x * 1e39"));
     says!("not_finite", refused("1 - x", "x + log(-1)"));
+    says!("swizzle_mixed", refused("1 - x", "length(vec4(x).xg)"));
+    says!("levels_alike", {
+        let levels = "Levels(values: {\"none\": 0, \"left\": 0.25, \"right\": 0.5})";
+        let text = TABLE.replace("\"far\":", &format!("\"other\": {levels},\n        \"far\":"));
+        refused_text(text.replace("far && seen", "side == other"))
+    });
+    says!("let_hides_input", refused("1 - x", "let x = 1; x"));
+    says!("let_hides_name", refused("1 - x", "let near = 1; near"));
+    says!("let_hides_let", refused("1 - x", "let q = 1; let q = 2; q"));
+    says!("let_dotted", refused("1 - x", "let q.r = 1; q.r"));
 }
 
 #[test]
@@ -177,6 +191,13 @@ fn cases() {
         let to = TABLE.find("    ],\n    default").unwrap();
         refused_text(format!("{}{}", &TABLE[..from], &TABLE[to..]))
     });
+    says!("line_unreachable", refused("value: \"1 - x\"", "lines: [(\"x\", \"near\"), \"1 - x\", (1, \"far\")]"));
+    says!("replacement_out_of_range", refused("1 - x", "case(1, x = 5)"));
+    says!("level_renamed_twice", refused("\"left\": \"right\",", "\"left\": \"right\", 0.25: \"none\","));
+    says!("example_beyond_clamp", {
+        let example = "value: \"1 - x\", examples: [({\"side\": none, \"far\": true, \"x\": 0, \"seen\": true}, 7)]";
+        refused_text(TABLE.replace("Number()", "Number(clamp: (0, 1))").replace("value: \"1 - x\"", example))
+    });
     says!("example_unknown_input", refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"y\": 1}, 1)]"));
     says!("example_incomplete", refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"far\": true}, 1)]"));
     says!(
@@ -192,6 +213,7 @@ fn names_that_are_taken() {
     says!("reserved_name", refused("\"near\":", "\"while\":"));
     says!("name_twice", refused("\"near\":", "\"far\": \"x < 1\",\n        \"near\":"));
     says!("level_twice", refused("\"left\": 0.25", "\"none\": 0.25"));
+    says!("level_keyword", refused("\"none\"", "\"if\""));
     says!("level_code_twice", refused("\"left\": 0.25", "\"left\": 0.5"));
     says!("name_hides_table", refused("\"near\":", "\"demo_key\": \"x\",\n        \"near\":"));
 }

@@ -9,9 +9,6 @@ use serde_json::{Value, json};
 
 use crate::diag::{self, Diagnostic, Failure, Severity, Source};
 
-/// Most diagnostics that people are shown at once.
-const SHOWN: usize = 50;
-
 /// When messages are coloured.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(super) enum Color {
@@ -66,11 +63,7 @@ impl Report {
                 let styles = Styles::default();
                 let stream = StandardStream::stderr(choice);
                 let mut stream = stream.lock();
-                let shown = &diagnostics[..diagnostics.len().min(SHOWN)];
-                diag::render_styled(source, shown, &mut StylesWriter::new(&mut stream, &styles));
-                if shown.len() < diagnostics.len() {
-                    let _ = writeln!(stream, "and {} more", diagnostics.len() - shown.len());
-                }
+                diag::render_styled(source, diagnostics, &mut StylesWriter::new(&mut stream, &styles));
             }
         }
     }

@@ -20,7 +20,6 @@ pub(crate) mod normal;
 mod ops;
 mod pool;
 pub mod print;
-mod terms;
 
 use std::sync::Arc;
 
@@ -28,12 +27,12 @@ use crate::diag::{Failure, Source, Span};
 use crate::table::{Erratum, HitPolicy, Table};
 
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
+pub use lower::LevelTerm;
 pub use ops::Real;
 pub use pool::{
     BINARY_FUNCTIONS, BinaryOp, Comparison, Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool,
     TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp,
 };
-pub use terms::LevelTerm;
 
 /// Number of an input, in the order declared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

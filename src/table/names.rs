@@ -44,6 +44,22 @@ pub(crate) fn check_inner(name: &str, what: &str, span: Span) -> Result<(), Diag
     well_formed(name, what, span)
 }
 
+/// Words of the expression language that can never be read as the name of a level.
+const KEYWORDS: [&str; 7] = ["case", "else", "false", "if", "in", "let", "true"];
+
+/// Checks the name of a level: it must also be possible to write it in an expression.
+pub(crate) fn check_level(name: &str, span: Span) -> Result<(), Diagnostic> {
+    check_inner(name, "a level", span)?;
+    match KEYWORDS.contains(&name) {
+        false => Ok(()),
+        true => Err(Diagnostic::error(codes::RESERVED_NAME, format!("`{name}` is a word of the expression language"))
+            .at(span, "cannot be the name of a level")
+            .help(format!(
+                "an expression could not mention the level; choose another name, for instance `{name}_level`"
+            ))),
+    }
+}
+
 fn well_formed(name: &str, what: &str, span: Span) -> Result<(), Diagnostic> {
     let part_ok = |part: &str| {
         part.starts_with(|c: char| c.is_ascii_alphabetic())
@@ -91,6 +107,10 @@ mod tests {
         for name in ["", "1a", "a b", "a;}fn f(", "a__b", "_a", "a_", "é", "a.", "fn", "uniform", "self", "d.float"] {
             assert!(check(name, "an input", Span::default()).is_err(), "{name}");
         }
-        assert!(check_inner("default", "a level", Span::default()).is_ok());
+        assert!(check_level("default", Span::default()).is_ok());
+        for word in KEYWORDS {
+            assert!(check_level(word, Span::default()).is_err(), "{word}");
+            assert!(check_inner(word, "a symmetry", Span::default()).is_ok(), "{word}");
+        }
     }
 }

@@ -175,7 +175,7 @@ impl<'a> Reader<'a> {
             Some(b'(') => Shape::Tuple,
             Some(b) if b.is_ascii_alphabetic() || *b == b'_' => {
                 let end = raw.0.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(raw.0.len());
-                Shape::Variant(&raw.0[..end])
+                if end == raw.0.len() { Shape::Word(raw.0) } else { Shape::Variant(&raw.0[..end]) }
             }
             _ => Shape::Other,
         }
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
                 }
                 parse::expression(&text[quote..text.len() - 1 - hashes], span.start + quote)
             }
-            Shape::Variant("true" | "false") | Shape::Other => parse::expression(raw.0, span.start),
+            Shape::Word("true" | "false") | Shape::Other => parse::expression(raw.0, span.start),
             _ => Err(Diagnostic::error(codes::STRUCTURE, "expected an expression")
                 .at(span, "neither a string nor a number")
                 .help("write it as a string, for instance \"min(px, 1 - py)\"")),
@@ -213,6 +213,9 @@ pub(super) enum Shape<'a> {
     Map,
     List,
     Tuple,
+    /// A bare word and nothing else.
+    Word(&'a str),
+    /// A bare word that something follows.
     Variant(&'a str),
     Other,
 }

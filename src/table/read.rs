@@ -235,8 +235,8 @@ impl Errors {
 impl<'a> Reader<'a> {
     fn hit_policy(&self, raw: Raw<'a>) -> Result<Spanned<HitPolicy>> {
         let value = match self.shape(raw) {
-            Shape::Variant("First") => HitPolicy::First,
-            Shape::Variant("Unique") => HitPolicy::Unique,
+            Shape::Word("First") => HitPolicy::First,
+            Shape::Word("Unique") => HitPolicy::Unique,
             _ => {
                 return Err(Diagnostic::error(codes::STRUCTURE, "unknown hit policy")
                     .at(self.span(raw), "expected `First` or `Unique`")
@@ -280,7 +280,12 @@ impl<'a> Reader<'a> {
     /// A level by its quoted or bare name, or an expression.
     fn level_or_expr(&self, raw: Raw<'a>) -> Result<Expr> {
         match self.shape(raw) {
-            Shape::Variant(word) => Ok(Expr { span: self.span(raw), kind: ExprKind::Name(word.to_owned()) }),
+            Shape::Word(word) => Ok(Expr { span: self.span(raw), kind: ExprKind::Name(word.to_owned()) }),
+            Shape::Variant(word) => {
+                Err(Diagnostic::error(codes::STRUCTURE, "expected a level, a constant or an expression")
+                    .at(self.span(raw), format!("more than the word `{word}`"))
+                    .help("a bare word stands alone, an expression stands in quotes"))
+            }
             _ => self.expr(raw),
         }
     }
@@ -311,7 +316,7 @@ impl<'a> Reader<'a> {
                 }
                 CombinedRon::All(_) | CombinedRon::Any(_) => Err(self.no_condition(raw)),
             },
-            Shape::Text | Shape::Other | Shape::Variant("true" | "false") => self.expr(raw),
+            Shape::Text | Shape::Other | Shape::Word("true" | "false") => self.expr(raw),
             _ => Err(self.no_condition(raw)),
         }
     }
@@ -435,6 +440,17 @@ impl<'a> Reader<'a> {
                 let lines = lines.into_iter().map(|line| self.line(line)).collect::<Result<Vec<_>>>()?;
                 if lines.is_empty() {
                     return shape("`lines` is empty");
+                }
+                let always = |line: &Line| match &line.condition {
+                    None => true,
+                    Some(condition) => condition.kind == ExprKind::Name("true".to_owned()),
+                };
+                if let Some([last, beyond, ..]) = lines.iter().position(always).map(|at| &lines[at..]) {
+                    let message = format!("case {}: a line that is never reached", id.value);
+                    return Err(Diagnostic::error(codes::CASE_SHAPE, message)
+                        .at(beyond.value.span, "this line")
+                        .at(last.value.span, "this one always applies")
+                        .help("the first line that applies counts; a line without a condition comes last"));
                 }
                 CaseBody::Rows { when: self.condition(when)?, lines }
             }

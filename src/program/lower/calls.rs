@@ -1,0 +1,290 @@
+//! Functions, and operations component by component. Vectors end here: they
+//! are expanded by WGSL's definitions of the functions.
+
+use super::scope::Env;
+use super::terms::{Expected, Term, type_error};
+use super::{Lowering, Result};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::pool::{self, BinaryOp, ExprId, TernaryOp, UnaryOp};
+use crate::table::expr::Expr;
+
+impl Lowering<'_> {
+    pub(super) fn call(
+        &mut self,
+        function: &Spanned<String>,
+        arguments: &[Expr],
+        span: Span,
+        env: &Env,
+        expected: Expected,
+    ) -> Result<Term> {
+        let name = function.value.as_str();
+        let arity = |expected: usize| -> Result<()> {
+            if arguments.len() == expected {
+                return Ok(());
+            }
+            let plural = if expected == 1 { "" } else { "s" };
+            Err(Diagnostic::error(
+                codes::CALL,
+                format!("`{name}` takes {expected} argument{plural}, not {}", arguments.len()),
+            )
+            .at(span, "wrong number of arguments"))
+        };
+        match name {
+            "f32" => {
+                arity(1)?;
+                return self.number_of(&arguments[0], env);
+            }
+            "select" => {
+                arity(3)?;
+                let condition = self.condition(&arguments[2], env)?;
+                let (other, then) = self.alternatives(&arguments[0], &arguments[1], env, expected)?;
+                return self.choose(condition, then, other, span);
+            }
+            _ => {}
+        }
+        if let Some((_, op)) = pool::UNARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
+            arity(1)?;
+            let a = self.term(&arguments[0], env, Expected::Anything)?;
+            return self.map1(*op, a, span);
+        }
+        if let Some((_, op)) = pool::BINARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
+            arity(2)?;
+            let a = self.term(&arguments[0], env, Expected::Anything)?;
+            let b = self.term(&arguments[1], env, Expected::Anything)?;
+            return self.map2(*op, a, b, span);
+        }
+        if let Some((_, op)) = pool::TERNARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
+            arity(3)?;
+            let terms = [0, 1, 2].map(|i| self.term(&arguments[i], env, Expected::Anything));
+            let [a, b, c] = terms;
+            return self.map3(*op, a?, b?, c?, span);
+        }
+        self.vector_call(function, arguments, span, env, arity)
+    }
+
+    pub(super) fn map1(&mut self, op: UnaryOp, a: Term, span: Span) -> Result<Term> {
+        match a {
+            Term::Number(a) => {
+                let result = self.pool.unary(op, a);
+                Ok(Term::Number(self.finite(result, span)?))
+            }
+            Term::Vector(parts) => {
+                let parts = parts.into_iter().map(|a| {
+                    let result = self.pool.unary(op, a);
+                    self.finite(result, span)
+                });
+                Ok(Term::Vector(parts.collect::<Result<_>>()?))
+            }
+            other => Err(self.no_number(&other, span)),
+        }
+    }
+
+    pub(super) fn map2(&mut self, op: BinaryOp, a: Term, b: Term, span: Span) -> Result<Term> {
+        let mut parts = Vec::new();
+        let (a, b, scalar) = self.broadcast(a, b, span)?;
+        for (a, b) in a.into_iter().zip(b) {
+            let result = self.pool.binary(op, a, b);
+            parts.push(self.finite(result, span)?);
+        }
+        Ok(if scalar { Term::Number(parts[0]) } else { Term::Vector(parts) })
+    }
+
+    pub(super) fn map3(&mut self, op: TernaryOp, a: Term, b: Term, c: Term, span: Span) -> Result<Term> {
+        let (b, c, scalar) = self.broadcast(b, c, span)?;
+        let wrap = |parts: Vec<ExprId>| if parts.len() == 1 { Term::Number(parts[0]) } else { Term::Vector(parts) };
+        let (a, b, also_scalar) = self.broadcast(a, wrap(b), span)?;
+        let n = a.len();
+        let c = if c.len() == 1 { vec![c[0]; n] } else { c };
+        if c.len() != n {
+            return Err(type_error(span, "vectors of different sizes", "operands must have the same size"));
+        }
+        let mut parts = Vec::new();
+        for ((a, b), c) in a.into_iter().zip(b).zip(c) {
+            let bounds = match op {
+                TernaryOp::Clamp => (self.pool.constant(b), self.pool.constant(c)),
+                TernaryOp::Smoothstep => (self.pool.constant(a), self.pool.constant(b)),
+                _ => (None, None),
+            };
+            if let (Some(lo), Some(hi)) = bounds
+                && (lo > hi || (lo == hi && op == TernaryOp::Smoothstep))
+            {
+                return Err(Diagnostic::error(
+                    codes::DOMAIN,
+                    format!("the lower bound {lo} is not below the upper bound {hi}"),
+                )
+                .at(span, "shading languages leave this undefined"));
+            }
+            let result = self.pool.ternary(op, a, b, c);
+            parts.push(self.finite(result, span)?);
+        }
+        Ok(if scalar && also_scalar { Term::Number(parts[0]) } else { Term::Vector(parts) })
+    }
+
+    /// Components of two operands; a number goes with a vector of any size.
+    pub(super) fn broadcast(&self, a: Term, b: Term, span: Span) -> Result<(Vec<ExprId>, Vec<ExprId>, bool)> {
+        match (a, b) {
+            (Term::Number(a), Term::Number(b)) => Ok((vec![a], vec![b], true)),
+            (Term::Vector(a), Term::Number(b)) => {
+                let n = a.len();
+                Ok((a, vec![b; n], false))
+            }
+            (Term::Number(a), Term::Vector(b)) => Ok((vec![a; b.len()], b, false)),
+            (Term::Vector(a), Term::Vector(b)) if a.len() == b.len() => Ok((a, b, false)),
+            (a @ (Term::Number(_) | Term::Vector(_)), b) | (b, a @ (Term::Number(_) | Term::Vector(_))) => {
+                let message = format!("{} and {} do not go together", self.describe(&a), self.describe(&b));
+                let error = Diagnostic::error(codes::TYPE, message).at(span, "in this operation");
+                Err(match b {
+                    Term::Level(..) | Term::Bool(_) => {
+                        error.help("`f32(...)` gives the number of a level or condition")
+                    }
+                    _ => error,
+                })
+            }
+            (a, _) => Err(self.no_number(&a, span)),
+        }
+    }
+
+    pub(super) fn swizzle(&mut self, value: Term, letters: &str, span: Span) -> Result<Term> {
+        let Term::Vector(parts) = &value else {
+            return Err(type_error(span, &self.describe(&value), "only vectors have components"));
+        };
+        // All letters come from one of the two alphabets, as in every shading language.
+        let picked = ["xyzw", "rgba"].into_iter().find_map(|alphabet| {
+            let pick = |letter: char| alphabet.find(letter).and_then(|i| parts.get(i).copied());
+            letters.chars().map(pick).collect::<Option<Vec<ExprId>>>()
+        });
+        match picked {
+            Some(picked) if picked.len() == 1 => Ok(Term::Number(picked[0])),
+            Some(picked) if (2..=4).contains(&picked.len()) => Ok(Term::Vector(picked)),
+            _ => Err(Diagnostic::error(codes::TYPE, format!("`.{letters}` is not a component"))
+                .at(span, format!("of {}", self.describe(&value)))
+                .help("components are one to four of `xyzw`, or of `rgba`, as far as the vector has them")),
+        }
+    }
+
+    /// `f32(level)`, `f32(condition)`, `f32(number)`.
+    pub(super) fn number_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+        match self.term(argument, env, Expected::Anything)? {
+            Term::Number(number) => Ok(Term::Number(number)),
+            Term::Level(set, term) => {
+                Ok(Term::Number(self.level_number(set, &term, |me, level| me.sets[set.0].codes[usize::from(level)])))
+            }
+            Term::Bool(condition) => {
+                let (one, zero) = (self.pool.number(1.0), self.pool.number(0.0));
+                Ok(Term::Number(self.pool.select(condition, one, zero)))
+            }
+            other => {
+                Err(type_error(argument.span, &self.describe(&other), "expected a level, a condition or a number"))
+            }
+        }
+    }
+
+    /// Vectors are expanded here, by WGSL's definitions of the functions.
+    pub(super) fn vector_call(
+        &mut self,
+        function: &Spanned<String>,
+        arguments: &[Expr],
+        span: Span,
+        env: &Env,
+        arity: impl Fn(usize) -> Result<()>,
+    ) -> Result<Term> {
+        let name = function.value.as_str();
+        let size = match name {
+            "vec2" => Some(2),
+            "vec3" => Some(3),
+            "vec4" => Some(4),
+            "dot" | "distance" | "cross" => {
+                arity(2)?;
+                None
+            }
+            "length" | "normalize" => {
+                arity(1)?;
+                None
+            }
+            _ => return Err(self.unknown_function(function)),
+        };
+        let mut terms = Vec::new();
+        for argument in arguments {
+            terms.push(match self.term(argument, env, Expected::Anything)? {
+                Term::Number(number) => vec![number],
+                Term::Vector(parts) => parts,
+                other => return Err(self.no_number(&other, argument.span)),
+            });
+        }
+        if let Some(size) = size {
+            let mut parts: Vec<ExprId> = terms.concat();
+            if parts.len() == 1 {
+                parts = vec![parts[0]; size];
+            }
+            if parts.len() != size {
+                return Err(Diagnostic::error(
+                    codes::CALL,
+                    format!("`{name}` needs {size} components, not {}", parts.len()),
+                )
+                .at(span, "wrong number of components"));
+            }
+            return Ok(Term::Vector(parts));
+        }
+        if terms.len() == 2 && terms[0].len() != terms[1].len() {
+            return Err(type_error(span, "vectors of different sizes", "operands must have the same size"));
+        }
+        match name {
+            "dot" => Ok(Term::Number(self.dot(&terms[0], &terms[1]))),
+            "length" => Ok(Term::Number(self.length(&terms[0]))),
+            "distance" => {
+                let pairs = terms[0].iter().zip(&terms[1]);
+                let difference: Vec<_> = pairs.map(|(a, b)| self.pool.binary(BinaryOp::Subtract, *a, *b)).collect();
+                Ok(Term::Number(self.length(&difference)))
+            }
+            "normalize" => {
+                let length = self.length(&terms[0]);
+                let parts = terms[0].iter().map(|a| self.pool.binary(BinaryOp::Divide, *a, length));
+                Ok(Term::Vector(parts.collect()))
+            }
+            _ if terms[0].len() == 3 => {
+                let (a, b) = (&terms[0], &terms[1]);
+                let mut part = |i: usize, j: usize| {
+                    let (x, y) = (
+                        self.pool.binary(BinaryOp::Multiply, a[i], b[j]),
+                        self.pool.binary(BinaryOp::Multiply, a[j], b[i]),
+                    );
+                    self.pool.binary(BinaryOp::Subtract, x, y)
+                };
+                Ok(Term::Vector(vec![part(1, 2), part(2, 0), part(0, 1)]))
+            }
+            _ => Err(type_error(span, "a vector of another size", "`cross` needs vectors of 3")),
+        }
+    }
+
+    pub(super) fn dot(&mut self, a: &[ExprId], b: &[ExprId]) -> ExprId {
+        let mut sum = self.pool.binary(BinaryOp::Multiply, a[0], b[0]);
+        for (x, y) in a.iter().zip(b).skip(1) {
+            let product = self.pool.binary(BinaryOp::Multiply, *x, *y);
+            sum = self.pool.binary(BinaryOp::Add, sum, product);
+        }
+        sum
+    }
+
+    pub(super) fn length(&mut self, a: &[ExprId]) -> ExprId {
+        if let [only] = a {
+            return self.pool.unary(UnaryOp::Abs, *only);
+        }
+        let square = self.dot(a, a);
+        self.pool.unary(UnaryOp::Sqrt, square)
+    }
+
+    pub(super) fn unknown_function(&self, function: &Spanned<String>) -> Diagnostic {
+        let known = || {
+            let named =
+                pool::UNARY_FUNCTIONS.iter().map(|(n, _)| *n).chain(pool::BINARY_FUNCTIONS.iter().map(|(n, _)| *n));
+            let named = named.chain(pool::TERNARY_FUNCTIONS.iter().map(|(n, _)| *n));
+            named.chain(["f32", "select", "vec2", "vec3", "vec4", "dot", "length", "distance", "normalize", "cross"])
+        };
+        let error = Diagnostic::error(codes::CALL, format!("there is no function `{}`", function.value))
+            .at(function.span, "unknown function");
+        match crate::table::nearest(&function.value, known()) {
+            Some(close) => error.help(format!("did you mean `{close}`?")),
+            None => error.help(format!("the functions are: {}", known().collect::<Vec<_>>().join(", "))),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Symmetries: what each mapped input becomes, and what becomes of the result.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::scope::Env;
+use super::terms::{Term, type_error};
+use super::{Lowering, Result};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::{InputId, LevelTerm, Symmetry};
+use crate::table::expr::Expr;
+use crate::table::{self, Image, names};
+
+impl<'t> Lowering<'t> {
+    /// What each mapped input becomes under a symmetry.
+    pub(super) fn images(&mut self, symmetry: &'t table::Symmetry, env: &Env) -> Result<HashMap<InputId, Term>> {
+        let mut images = HashMap::new();
+        for (name, image) in &symmetry.map {
+            let Some(input) = self.input_named(&name.value) else {
+                return Err(self.unknown_input(name, "only inputs are mapped"));
+            };
+            let term = match image {
+                Image::Expr(expr) => self.term_for_input(input, expr, env)?,
+                Image::Levels { from, map } => self.renamed(input, name, from.as_ref(), map, env)?,
+            };
+            if images.insert(input, term).is_some() {
+                return Err(Diagnostic::error(codes::DUPLICATE, format!("`{}` is mapped twice", name.value))
+                    .at(name.span, "again"));
+            }
+        }
+        Ok(images)
+    }
+
+    pub(super) fn renamed(
+        &mut self,
+        input: InputId,
+        name: &Spanned<String>,
+        from: Option<&Spanned<String>>,
+        map: &[(Spanned<String>, Spanned<String>)],
+        env: &Env,
+    ) -> Result<Term> {
+        let no_levels =
+            |at: Span| Diagnostic::error(codes::SYMMETRY, "only named levels can be renamed").at(at, "has none");
+        let origin = match from {
+            None => input,
+            Some(from) => self.input_named(&from.value).ok_or_else(|| self.unknown_input(from, "unknown input"))?,
+        };
+        let to_set = self.input_sets[input.index()].ok_or_else(|| no_levels(name.span))?;
+        let Term::Level(from_set, term) = self.input_term(origin, env) else { return Err(no_levels(name.span)) };
+        let mut renaming = Vec::new();
+        for (index, level) in self.sets[from_set.0].names.iter().enumerate() {
+            let new = map.iter().find(|(old, _)| self.sets[from_set.0].find(&old.value) == Some(index as u8));
+            let (target, span) = new.map_or((level.as_str(), name.span), |(_, new)| (new.value.as_str(), new.span));
+            match self.sets[to_set.0].find(target) {
+                Some(index) => renaming.push(index),
+                None => return Err(self.unknown_level(to_set, target, span)),
+            }
+        }
+        let mut seen = HashMap::new();
+        for (old, _) in map {
+            let Some(level) = self.sets[from_set.0].find(&old.value) else {
+                return Err(self.unknown_level(from_set, &old.value, old.span));
+            };
+            if let Some(first) = seen.insert(level, old.span) {
+                let message =
+                    format!("the level `{}` is renamed twice", self.sets[from_set.0].names[usize::from(level)]);
+                return Err(Diagnostic::error(codes::DUPLICATE, message).at(old.span, "again").at(first, "first here"));
+            }
+        }
+        Ok(Term::Level(to_set, Arc::new(LevelTerm::Map(term, renaming.into()))))
+    }
+
+    pub(super) fn symmetry(&mut self, symmetry: &'t table::Symmetry) -> Result<Symmetry> {
+        names::check_inner(&symmetry.name.value, "a symmetry", symmetry.name.span)?;
+        let env = Env::default();
+        let mut images: Vec<_> = self.images(symmetry, &env)?.into_iter().collect();
+        images.sort_by_key(|(input, _)| *input);
+        let (mut levels, mut numbers) = (Vec::new(), Vec::new());
+        for (input, term) in images {
+            match term {
+                Term::Number(expr) => numbers.push((input, expr)),
+                Term::Level(_, term) => levels.push((input, (*term).clone())),
+                Term::Bool(condition) => {
+                    let (one, zero) = (Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
+                    levels.push((input, LevelTerm::If(condition, one, zero)));
+                }
+                Term::Vector(_) | Term::List(_) => {
+                    return Err(Diagnostic::error(codes::SYMMETRY, "an input has a single value")
+                        .at(symmetry.name.span, "here"));
+                }
+            }
+        }
+        let result = match &symmetry.result {
+            None => None,
+            Some(expr) => {
+                let placeholder = self.pool.result();
+                Some(self.numeric(expr, &env.with_local(&value_name(expr), Term::Number(placeholder)))?)
+            }
+        };
+        let (name, doc) = (symmetry.name.value.clone(), symmetry.doc.clone());
+        Ok(Symmetry { name, doc, levels, numbers, result, span: symmetry.name.span })
+    }
+
+    /// Applies the result map of a symmetry.
+    pub(super) fn apply_result(&mut self, map: &Expr, value: Term, env: &Env) -> Result<Term> {
+        match value {
+            Term::Number(_) => Ok(Term::Number(self.numeric(map, &env.with_local(&value_name(map), value))?)),
+            other => Err(type_error(map.span, &self.describe(&other), "only a single number can be mapped")),
+        }
+    }
+
+    /// An environment in which inputs mean their images under a symmetry.
+    pub(super) fn mapped_env(&self, images: HashMap<InputId, Term>, env: &Env) -> Env {
+        let mut overrides = (*env.overrides).clone();
+        overrides.extend(images);
+        Env { overrides: Arc::new(overrides), names: Rc::default(), ..env.clone() }
+    }
+}
+
+/// What `result` calls the value that it maps.
+fn value_name(map: &Expr) -> Spanned<String> {
+    Spanned::new(map.span, "value".to_owned())
+}

@@ -1,0 +1,253 @@
+//! Levels that depend on inputs: where they are written, how they compare, and
+//! what they become, which is a condition or a number.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::scope::Env;
+use super::terms::{Expected, Term, type_error};
+use super::{Lowering, Result, SetId};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::InputId;
+use crate::program::pool::{Comparison, CondId, ExprId, LevelSet};
+use crate::table::expr::{self as ast, Expr, ExprKind};
+
+/// A level that depends on inputs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LevelTerm {
+    /// A fixed level.
+    Const(u8),
+    /// The level of an input.
+    Input(InputId),
+    /// One of two levels.
+    If(CondId, Arc<LevelTerm>, Arc<LevelTerm>),
+    /// A level, renamed through a list indexed by the old level.
+    Map(Arc<LevelTerm>, Arc<[u8]>),
+}
+
+impl Lowering<'_> {
+    pub(super) fn equality(&mut self, a: &Expr, b: &Expr, env: &Env) -> Result<CondId> {
+        // A bare level name or code takes its meaning from the other side.
+        let swap = self.is_bare(a, env) && !self.is_bare(b, env);
+        let (known, other) = if swap { (b, a) } else { (a, b) };
+        let mut left = self.term(known, env, Expected::Anything)?;
+        let right = match &left {
+            Term::Level(set, _) => self.level_operand(*set, other, env)?,
+            _ => self.term(other, env, Expected::Anything)?,
+        };
+        if let (Term::Number(_), Term::Level(set, _)) = (&left, &right) {
+            left = self.level_operand(*set, known, env)?;
+        }
+        match (&left, &right) {
+            (Term::Number(a), Term::Number(b)) => Ok(self.pool.compare(Comparison::Equal, *a, *b)),
+            (Term::Bool(a), Term::Bool(b)) => {
+                let (a, b) = (*a, *b);
+                let not_b = self.pool.not(b);
+                Ok(self.pool.cond_if(a, b, not_b))
+            }
+            (Term::Level(set, a), Term::Level(other_set, b)) if set == other_set => Ok(self.same_level(*set, a, b)),
+            (Term::Level(set, _), Term::Level(other_set, _)) => {
+                let error = type_error(other.span, &self.describe(&right), "the other side has other levels");
+                Err(self.unlike(error, *set, *other_set))
+            }
+            (Term::Level(..), _) => {
+                Err(type_error(other.span, &self.describe(&right), "expected a level, as on the other side"))
+            }
+            _ => {
+                let message = format!("the other side of the comparison is {}", self.describe(&left));
+                Err(type_error(other.span, &self.describe(&right), &message))
+            }
+        }
+    }
+
+    /// The condition that two terms are the same level.
+    fn same_level(&mut self, set: SetId, a: &LevelTerm, b: &LevelTerm) -> CondId {
+        match (a, b) {
+            (term, LevelTerm::Const(level)) | (LevelTerm::Const(level), term) => {
+                self.level_in(set, term, LevelSet::one(*level))
+            }
+            _ => {
+                let levels = 0..self.sets[set.0].count() as u8;
+                let both: Vec<CondId> = levels
+                    .map(|level| {
+                        let parts = [a, b].map(|t| self.level_in(set, t, LevelSet::one(level)));
+                        self.pool.and(parts)
+                    })
+                    .collect();
+                self.pool.or(both)
+            }
+        }
+    }
+
+    /// Lowers an expression where a level of a set is expected; the name of a level wins.
+    fn level_operand(&mut self, set: SetId, expr: &Expr, env: &Env) -> Result<Term> {
+        match self.literal_level(set, expr, env)? {
+            Some(level) => Ok(Term::Level(set, Arc::new(LevelTerm::Const(level)))),
+            None => self.term(expr, env, Expected::Level(set)),
+        }
+    }
+
+    /// Lowers two alternatives. Where nothing else says of which set a bare level
+    /// or code is, the other alternative does.
+    pub(super) fn alternatives(&mut self, a: &Expr, b: &Expr, env: &Env, expected: Expected) -> Result<(Term, Term)> {
+        let swap = expected == Expected::Anything && self.is_bare(a, env) && !self.is_bare(b, env);
+        let (first, second) = if swap { (b, a) } else { (a, b) };
+        let mut first_term = self.term(first, env, expected)?;
+        let second_expected = match (&first_term, expected) {
+            (Term::Level(set, _), Expected::Anything) => Expected::Level(*set),
+            _ => expected,
+        };
+        let second_term = self.term(second, env, second_expected)?;
+        if let (Term::Number(_), Term::Level(set, _)) = (&first_term, &second_term) {
+            first_term = self.term(first, env, Expected::Level(*set))?;
+        }
+        Ok(if swap { (second_term, first_term) } else { (first_term, second_term) })
+    }
+
+    /// Whether an expression consists of names that mean nothing by themselves, as those of levels do.
+    fn is_bare(&self, expr: &Expr, env: &Env) -> bool {
+        match &expr.kind {
+            ExprKind::Name(name) => {
+                let base = name.rsplit_once('.').map_or(name.as_str(), |(base, _)| base);
+                !(matches!(name.as_str(), "true" | "false") || self.is_defined(name, env) || self.is_defined(base, env))
+            }
+            ExprKind::If(_, a, b) => self.is_bare(a, env) && self.is_bare(b, env),
+            ExprKind::Call(function, arguments) => match arguments.as_slice() {
+                [a, b, _] if function.value == "select" => self.is_bare(a, env) && self.is_bare(b, env),
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// Says how inputs come to have the same levels, if two sets look alike.
+    pub(super) fn unlike(&self, error: Diagnostic, a: SetId, b: SetId) -> Diagnostic {
+        let (first, second) = (&self.sets[a.0], &self.sets[b.0]);
+        if a == b || first.names != second.names || first.codes != second.codes {
+            return error;
+        }
+        let of =
+            |set: SetId| self.input_sets.iter().position(|s| *s == Some(set)).map(|i| self.inputs[i].name.as_str());
+        match (of(a.min(b)), of(a.max(b))) {
+            (Some(one), Some(two)) => error.help(format!(
+                "the levels look alike, but each list is a set of its own; declare `{two}` as `Levels(of: \"{one}\")`"
+            )),
+            _ => {
+                error.help("the levels look alike, but each list is a set of its own; share one with `Levels(of: ...)`")
+            }
+        }
+    }
+
+    /// A level written as a name that means nothing else, or as its code.
+    pub(super) fn literal_level(&mut self, set: SetId, expr: &Expr, env: &Env) -> Result<Option<u8>> {
+        let word = match &expr.kind {
+            ExprKind::Name(name) if self.sets[set.0].names.contains(name) => name.clone(),
+            ExprKind::Name(name) if self.is_defined(name, env) => return Ok(None),
+            ExprKind::Name(name) => name.clone(),
+            ExprKind::Number(number) => format!("{number}"),
+            ExprKind::Unary(ast::UnaryOp::Negate, inner) => match inner.kind {
+                ExprKind::Number(number) => format!("{}", -number),
+                _ => return Ok(None),
+            },
+            _ => return Ok(None),
+        };
+        match self.sets[set.0].find(&word) {
+            Some(level) => Ok(Some(level)),
+            None => Err(self.unknown_level(set, &word, expr.span)),
+        }
+    }
+
+    pub(super) fn unknown_level(&self, set: SetId, word: &str, span: Span) -> Diagnostic {
+        let levels = &self.sets[set.0];
+        let error = Diagnostic::error(codes::UNKNOWN_LEVEL, format!("there is no level `{word}`"))
+            .at(span, "not one of the levels here");
+        let error = match crate::table::nearest(word, levels.names.iter().map(String::as_str)) {
+            Some(close) => error.help(format!("did you mean `{close}`?")),
+            None => error,
+        };
+        error.help(format!("the levels are: {}", levels.describe()))
+    }
+
+    pub(super) fn membership(&mut self, value: &Expr, levels: &[Spanned<String>], env: &Env) -> Result<Term> {
+        let term = self.term(value, env, Expected::Anything)?;
+        let (set, term) = match term {
+            Term::Level(set, term) => (set, term),
+            Term::Bool(condition) => {
+                let term = LevelTerm::If(condition, Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
+                (SetId::BOOL, Arc::new(term))
+            }
+            other => return Err(type_error(value.span, &self.describe(&other), "only discrete inputs have levels")),
+        };
+        let mut mask = 0;
+        for word in levels {
+            match self.sets[set.0].find(&word.value) {
+                Some(level) => mask |= LevelSet::one(level).0,
+                None => return Err(self.unknown_level(set, &word.value, word.span)),
+            }
+        }
+        Ok(Term::Bool(self.level_in(set, &term, LevelSet(mask))))
+    }
+
+    /// The condition that a level term lies in a set of levels.
+    pub(super) fn level_in(&mut self, set: SetId, term: &LevelTerm, levels: LevelSet) -> CondId {
+        self.level_in_known(set, term, levels, &mut HashMap::new())
+    }
+
+    /// Terms share parts; `known` keeps a part from being visited once per path to it.
+    pub(super) fn level_in_known(
+        &mut self,
+        set: SetId,
+        term: &LevelTerm,
+        levels: LevelSet,
+        known: &mut HashMap<(*const LevelTerm, LevelSet), CondId>,
+    ) -> CondId {
+        let key = (std::ptr::from_ref(term), levels);
+        if let Some(condition) = known.get(&key) {
+            return *condition;
+        }
+        let condition = match term {
+            LevelTerm::Const(level) => self.pool.always(levels.contains(*level)),
+            LevelTerm::Input(input) => {
+                let count = self.sets[set.0].count();
+                self.pool.level(*input, levels, count)
+            }
+            LevelTerm::If(condition, then, other) => {
+                let then = self.level_in_known(set, then, levels, known);
+                let other = self.level_in_known(set, other, levels, known);
+                self.pool.cond_if(*condition, then, other)
+            }
+            LevelTerm::Map(inner, map) => {
+                let preimage = map.iter().enumerate().filter(|(_, to)| levels.contains(**to));
+                let preimage = LevelSet(preimage.fold(0, |mask, (from, _)| mask | 1 << from));
+                let from = self.set_of(inner);
+                self.level_in_known(from, inner, preimage, known)
+            }
+        };
+        known.insert(key, condition);
+        condition
+    }
+
+    /// The level set that a term ranges over.
+    pub(super) fn set_of(&self, term: &LevelTerm) -> SetId {
+        match term {
+            LevelTerm::Input(input) => self.input_sets[input.index()].unwrap_or(SetId::BOOL),
+            LevelTerm::If(_, then, _) => self.set_of(then),
+            LevelTerm::Map(inner, _) => self.set_of(inner),
+            LevelTerm::Const(_) => SetId::BOOL,
+        }
+    }
+
+    /// The number that stands for a level, or its index.
+    pub(super) fn level_number(&mut self, set: SetId, term: &LevelTerm, number: impl Fn(&Self, u8) -> f64) -> ExprId {
+        let last = self.sets[set.0].count() as u8 - 1;
+        let value = number(self, last);
+        let mut result = self.pool.number(value);
+        for level in (0..last).rev() {
+            let condition = self.level_in(set, term, LevelSet::one(level));
+            let value = number(self, level);
+            let value = self.pool.number(value);
+            result = self.pool.select(condition, value, result);
+        }
+        result
+    }
+}

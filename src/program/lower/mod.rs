@@ -1,0 +1,158 @@
+//! Table → program: declarations first, then rows, collecting every mistake.
+
+mod calls;
+mod declare;
+mod examples;
+mod images;
+mod levels;
+mod rows;
+mod scope;
+mod terms;
+#[cfg(test)]
+mod tests;
+
+use std::collections::{HashMap, HashSet};
+
+use super::domain::{Input, LevelKind, Levels, StateSpace};
+use super::pool::{InputSet, Pool};
+use super::{Assumption, InputId, Output, Program};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::table::{Table, names};
+use scope::Env;
+use terms::Term;
+
+pub use levels::LevelTerm;
+
+type Result<T> = std::result::Result<T, Diagnostic>;
+
+/// Number of a level set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+struct SetId(usize);
+
+impl SetId {
+    /// The levels of booleans.
+    const BOOL: SetId = SetId(0);
+}
+
+/// The state of lowering one table.
+struct Lowering<'t> {
+    table: &'t Table,
+    pool: Pool,
+    sets: Vec<Levels>,
+    /// The level set of each input; `None` for continuous ones.
+    input_sets: Vec<Option<SetId>>,
+    inputs: Vec<Input>,
+    named_index: HashMap<&'t str, usize>,
+    named_terms: Vec<Option<Term>>,
+    resolving: Vec<usize>,
+    /// How deep [`Lowering::term`] is nested in itself.
+    depth: u32,
+    input_index: HashMap<&'t str, InputId>,
+    set_index: HashMap<&'t str, SetId>,
+    case_index: HashMap<u32, usize>,
+    output: Output,
+    output_set: SetId,
+}
+
+/// Checks a table.
+pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
+    let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
+    let mut errors = Vec::new();
+    let mut lowering = Lowering {
+        table,
+        pool: Pool::default(),
+        sets: vec![Levels {
+            names: vec!["false".to_owned(), "true".to_owned()],
+            codes: vec![0.0, 1.0],
+            kind: LevelKind::Bool,
+        }],
+        input_sets: Vec::new(),
+        inputs: Vec::new(),
+        named_index: HashMap::new(),
+        named_terms: vec![None; table.names.len()],
+        resolving: Vec::new(),
+        depth: 0,
+        input_index: HashMap::new(),
+        set_index: HashMap::new(),
+        case_index: HashMap::new(),
+        output: Output::Number,
+        output_set: SetId::BOOL,
+    };
+    // Without sound declarations nothing that follows could be judged.
+    lowering.declare(&mut errors);
+    if !errors.is_empty() {
+        return Err(fail(errors));
+    }
+    let states = match StateSpace::new(&lowering.inputs) {
+        Ok(states) => states,
+        Err(product) => return Err(fail(vec![lowering.too_many_states(product)])),
+    };
+    let program = lowering.finish(states, &mut errors);
+    match program {
+        Some(program) if errors.is_empty() => Ok(program),
+        _ => Err(fail(errors)),
+    }
+}
+
+impl Lowering<'_> {
+    fn finish(mut self, states: StateSpace, errors: &mut Vec<Diagnostic>) -> Option<Program> {
+        let table = self.table;
+        for named in &table.names {
+            // Lowered where used, but a mistake in an unused one is a mistake too.
+            let _ = keep(self.term_of_name(&named.name.value), errors);
+            // A chain of names that is too long would be reported once per link.
+            if errors.last().is_some_and(|e| e.code == codes::TOO_DEEP) {
+                break;
+            }
+        }
+        let mut rows = Vec::new();
+        for case in &table.cases {
+            if let Some(row) = keep(self.row(case), errors) {
+                rows.push(row);
+            }
+        }
+        let env = Env::default();
+        let default = keep(self.default_term(&env).and_then(|t| self.result(t, table.default.span)), errors);
+        let assumptions = table.assumptions.iter().filter_map(|assumption| {
+            keep(names::check_inner(&assumption.name.value, "an assumption", assumption.name.span), errors)?;
+            let condition = keep(self.condition(&assumption.condition, &env), errors)?;
+            let (name, doc) = (assumption.name.value.clone(), assumption.doc.clone());
+            Some(Assumption { name, condition, doc, span: assumption.condition.span })
+        });
+        let assumptions = assumptions.collect();
+        let symmetries = table.symmetries.iter().filter_map(|s| keep(self.symmetry(s), errors)).collect();
+        let mut examples = Vec::new();
+        for (row, case) in table.cases.iter().enumerate() {
+            for example in &case.examples {
+                examples.extend(keep(self.example(row, example), errors));
+            }
+        }
+        // The same mistake in a shared name is found once per use.
+        let mut seen = HashSet::new();
+        errors.retain(|e| seen.insert((e.code, e.labels.first().map(|l| (l.span, l.message.clone())))));
+        let fetched = self.inputs.iter().enumerate().filter(|(_, i)| i.fetched.is_some());
+        let fetched = fetched.fold(InputSet::default(), |set, (i, _)| set.or(InputSet::one(InputId::new(i))));
+        Some(Program {
+            source: table.source.clone(),
+            name: table.name.value.clone(),
+            title: table.title.clone(),
+            origin: table.origin.clone(),
+            hit_policy: table.hit_policy.value,
+            hit_policy_span: table.hit_policy.span,
+            inputs: self.inputs,
+            fetched,
+            states,
+            pool: self.pool,
+            rows,
+            default: default?,
+            output: self.output,
+            assumptions,
+            symmetries,
+            examples,
+        })
+    }
+}
+
+fn keep<T>(result: Result<T>, errors: &mut Vec<Diagnostic>) -> Option<T> {
+    result.map_err(|error| errors.push(error)).ok()
+}

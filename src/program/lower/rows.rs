@@ -1,0 +1,267 @@
+//! Rows: guards, lines and values, tied to the output, and references to the
+//! value of another row.
+//!
+//! References and symmetric images are lowered by *substitution*: the other
+//! row is lowered again in an environment in which some inputs mean something
+//! else. That is the whole treatment of `case(…)` and of `is:`.
+
+use std::sync::Arc;
+
+use super::scope::Env;
+use super::terms::{Expected, Term, type_error};
+use super::{Lowering, Result, SetId};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::domain::Domain;
+use crate::program::pool::{CondId, ExprId, TernaryOp};
+use crate::program::{InputId, LevelTerm, Line, Output, Row};
+use crate::table::expr::Expr;
+use crate::table::{self, Case, CaseBody};
+
+/// A line of a row, its value not yet tied to the output.
+pub(super) struct LoweredLine {
+    pub(super) condition: CondId,
+    pub(super) value: Term,
+    pub(super) span: Span,
+}
+
+impl<'t> Lowering<'t> {
+    pub(super) fn row(&mut self, case: &'t Case) -> Result<Row> {
+        let env = Env::of_case(case.id.value);
+        let (guard, lines, result) = self.row_parts(&case.id, &env)?;
+        let guard_span = match &case.body {
+            CaseBody::Rows { when, .. } => when.span,
+            CaseBody::Image { under, .. } => under.span,
+        };
+        let lines = lines.into_iter().map(|line| {
+            let value = match &result {
+                Some(map) => self.apply_result(map, line.value, &env)?,
+                None => line.value,
+            };
+            Ok(Line { condition: line.condition, values: self.result(value, line.span)?, span: line.span })
+        });
+        let lines = lines.collect::<Result<Vec<_>>>()?;
+        Ok(Row {
+            id: case.id.value,
+            span: case.span,
+            guard,
+            guard_span,
+            lines,
+            section: case.section.clone(),
+            doc: case.doc.clone(),
+            errata: case.errata.clone(),
+        })
+    }
+
+    /// Guard and lines of a case in an environment, and the map that its results still need.
+    pub(super) fn row_parts(
+        &mut self,
+        id: &Spanned<u32>,
+        env: &Env,
+    ) -> Result<(CondId, Vec<LoweredLine>, Option<Expr>)> {
+        let case = self.find_case(id)?;
+        match &case.body {
+            CaseBody::Rows { when, lines } => Ok((self.condition(when, env)?, self.lines(lines, env)?, None)),
+            CaseBody::Image { case: base, under } => {
+                let base_case = self.find_case(base)?;
+                let CaseBody::Rows { when, lines } = &base_case.body else {
+                    let message = format!("case {} is itself an image", base.value);
+                    return Err(Diagnostic::error(codes::REFERENCE_DEPTH, message)
+                        .at(base.span, "an image is taken of a case that is written out")
+                        .help("name the case that has a guard and a value"));
+                };
+                let table = self.table;
+                let Some(symmetry) = table.symmetries.iter().find(|s| s.name.value == under.value) else {
+                    let known = table.symmetries.iter().map(|s| s.name.value.as_str());
+                    let error =
+                        Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no symmetry `{}`", under.value))
+                            .at(under.span, "not under `symmetries`");
+                    return Err(match table::nearest(&under.value, known) {
+                        Some(close) => error.help(format!("did you mean `{close}`?")),
+                        None => error,
+                    });
+                };
+                let images = self.images(symmetry, env)?;
+                let inner = self.mapped_env(images, env);
+                Ok((self.condition(when, &inner)?, self.lines(lines, &inner)?, symmetry.result.clone()))
+            }
+        }
+    }
+
+    pub(super) fn find_case(&self, id: &Spanned<u32>) -> Result<&'t Case> {
+        match self.case_index.get(&id.value) {
+            Some(index) => Ok(&self.table.cases[*index]),
+            None => {
+                let mut known: Vec<u32> = self.case_index.keys().copied().collect();
+                known.sort_unstable();
+                let shown: Vec<String> = known.iter().take(40).map(u32::to_string).collect();
+                Err(Diagnostic::error(codes::MISSING_CASE, format!("there is no case {}", id.value))
+                    .at(id.span, "refers to a case that is missing")
+                    .help(format!(
+                        "the cases are: {}{}",
+                        shown.join(", "),
+                        if known.len() > 40 { ", ..." } else { "" }
+                    )))
+            }
+        }
+    }
+
+    pub(super) fn lines(&mut self, lines: &[table::Line], env: &Env) -> Result<Vec<LoweredLine>> {
+        let expected = self.expected_output();
+        let lines = lines.iter().map(|line| {
+            let condition = match &line.condition {
+                Some(condition) => self.condition(condition, env)?,
+                None => self.pool.always(true),
+            };
+            let value = self.term(&line.value, env, expected)?;
+            Ok(LoweredLine { condition, value, span: line.value.span })
+        });
+        lines.collect()
+    }
+
+    /// `case(11, V = none)`: the value of another row, its guard not tested.
+    pub(super) fn case_value(&mut self, id: &Spanned<u32>, set: &[(Spanned<String>, Expr)], env: &Env) -> Result<Term> {
+        if env.cases.contains(&id.value) {
+            let chain = env.cases.iter().chain([&id.value]).map(u32::to_string).collect::<Vec<_>>().join(" -> ");
+            return Err(Diagnostic::error(codes::CIRCULAR_CASE, format!("case {} refers to itself", id.value))
+                .at(id.span, format!("closes the circle {chain}"))
+                .help("write out the value of one of these cases"));
+        }
+        if env.referenced {
+            let from = env.cases.last().copied().unwrap_or_default();
+            return Err(Diagnostic::error(
+                codes::REFERENCE_DEPTH,
+                format!("case {from} is referred to and refers to case {}", id.value),
+            )
+            .at(id.span, "references are one deep")
+            .help("write out the value of one of the two"));
+        }
+        let mut overrides = (*env.overrides).clone();
+        for (name, value) in set {
+            let Some(input) = self.input_named(&name.value) else {
+                return Err(self.unknown_input(name, "only inputs can be replaced"));
+            };
+            let term = self.term_for_input(input, value, env)?;
+            overrides.insert(input, term);
+        }
+        let mut inner =
+            Env { overrides: Arc::new(overrides), cases: env.cases.clone(), referenced: true, ..Env::default() };
+        inner.cases.push(id.value);
+        let (_, lines, result) = self.row_parts(id, &inner)?;
+        // The default applies where no line does; the guard is not part of the value.
+        let mut term = self.default_term(&inner)?;
+        for line in lines.iter().rev() {
+            let span = line.span;
+            let value = match &result {
+                Some(map) => self.apply_result(map, line.value.clone(), &inner)?,
+                None => line.value.clone(),
+            };
+            term = match self.pool.truth(line.condition) {
+                Some(true) => value,
+                _ => self.choose(line.condition, value, term, span)?,
+            };
+        }
+        Ok(term)
+    }
+
+    /// Lowers an expression that replaces an input.
+    pub(super) fn term_for_input(&mut self, input: InputId, value: &Expr, env: &Env) -> Result<Term> {
+        match self.input_sets[input.index()] {
+            None => {
+                let number = self.numeric(value, env)?;
+                self.check_range(input, number, value.span, env)?;
+                Ok(Term::Number(number))
+            }
+            Some(SetId::BOOL) => Ok(Term::Bool(self.condition(value, env)?)),
+            Some(set) => {
+                if let Some(level) = self.literal_level(set, value, env)? {
+                    return Ok(Term::Level(set, Arc::new(LevelTerm::Const(level))));
+                }
+                match self.term(value, env, Expected::Level(set))? {
+                    Term::Level(found, term) if found == set => Ok(Term::Level(set, term)),
+                    other => {
+                        let error = type_error(value.span, &self.describe(&other), "this input has other levels");
+                        Err(match other {
+                            Term::Level(found, _) => self.unlike(error, set, found),
+                            _ => error,
+                        })
+                    }
+                }
+            }
+        }
+    }
+
+    /// Refuses a constant that its input cannot be. What is constant only because
+    /// inputs are replaced may be out of reach there, so it is left alone.
+    fn check_range(&self, input: InputId, number: ExprId, span: Span, env: &Env) -> Result<()> {
+        let input = &self.inputs[input.index()];
+        match (&input.domain, self.pool.constant(number)) {
+            (Domain::Continuous { lo, hi, .. }, Some(value))
+                if env.overrides.is_empty() && !(*lo..=*hi).contains(&value) =>
+            {
+                let message = format!("{value} is not in the range {lo} to {hi} of `{}`", input.name);
+                Err(Diagnostic::error(codes::DOMAIN, message)
+                    .at(span, format!("replaces `{}`", input.name))
+                    .at(input.span, "declared here"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The default, as a value in an environment.
+    pub(super) fn default_term(&mut self, env: &Env) -> Result<Term> {
+        let expected = self.expected_output();
+        self.term(&self.table.default, env, expected)
+    }
+
+    pub(super) fn expected_output(&self) -> Expected {
+        match &self.output {
+            Output::Number | Output::Vector(_) => Expected::Anything,
+            Output::Enumeration(_) => Expected::Level(self.output_set),
+            Output::List { max, .. } => Expected::List(self.output_set, *max),
+        }
+    }
+
+    /// Ties a value to the output: the components, not clamped yet.
+    pub(super) fn components(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
+        let wrong = |found: &str, wanted: &str| {
+            Err(Diagnostic::error(codes::TYPE, format!("the output is {wanted}, but this is {found}"))
+                .at(span, format!("this is {found}"))
+                .help("what the table returns is declared under `output`"))
+        };
+        Ok(match (&self.output, term) {
+            (Output::Number, Term::Number(number)) => vec![number],
+            (Output::Vector(size), Term::Vector(parts)) if parts.len() == *size => parts,
+            (Output::Enumeration(_), Term::Level(set, term)) if set == self.output_set => {
+                vec![self.level_number(set, &term, |_, level| f64::from(level))]
+            }
+            (Output::List { .. }, Term::List(parts)) => parts,
+            (Output::Number, Term::Bool(_)) => return wrong("a condition", "a number"),
+            (Output::Number, _) => return wrong("not a number", "a number"),
+            (Output::Vector(size), _) => return wrong("something else", &format!("a vector of {size}")),
+            (Output::Enumeration(levels), _) => {
+                return wrong("something else", &format!("one of the levels {}", levels.names.join(", ")));
+            }
+            (Output::List { .. }, _) => return wrong("not a list", "a list, written [a, b]"),
+        })
+    }
+
+    /// The bounds that every component of a result is clamped to.
+    pub(super) fn clamp(&self) -> Option<(f64, f64)> {
+        match &self.table.output.value {
+            table::Output::Number(clamp) | table::Output::Vector(_, clamp) => *clamp,
+            table::Output::Enumeration(_) | table::Output::List { .. } => None,
+        }
+    }
+
+    /// Ties a value to the output: the components, clamped.
+    pub(super) fn result(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
+        let parts = self.components(term, span)?;
+        Ok(match self.clamp() {
+            None => parts,
+            Some((lo, hi)) => {
+                let (lo, hi) = (self.pool.number(lo), self.pool.number(hi));
+                parts.into_iter().map(|part| self.pool.ternary(TernaryOp::Clamp, part, lo, hi)).collect()
+            }
+        })
+    }
+}

@@ -1,0 +1,192 @@
+//! What names mean at some point: locals, inputs (perhaps replaced), named
+//! values, and what to say of a name that means nothing.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::terms::{Expected, Term};
+use super::{Lowering, Result, SetId};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::pool::LevelSet;
+use crate::program::{InputId, LevelTerm};
+use crate::table::expr::{Expr, ExprKind};
+use crate::table::{self, names};
+
+/// What names mean at some point.
+#[derive(Clone, Default)]
+pub(super) struct Env {
+    /// Inputs that mean something else here.
+    pub(super) overrides: Arc<HashMap<InputId, Term>>,
+    /// What named values became under these overrides.
+    pub(super) names: Rc<RefCell<HashMap<usize, Term>>>,
+    /// Names bound by `let`, innermost last.
+    pub(super) locals: Vec<(Spanned<String>, Term)>,
+    /// Which cases are being lowered, outermost first.
+    pub(super) cases: Vec<u32>,
+    /// Whether this is the value of a referenced case, where no further reference is allowed.
+    pub(super) referenced: bool,
+}
+
+impl Env {
+    /// The environment of a row of its own.
+    pub(super) fn of_case(id: u32) -> Self {
+        Self { cases: vec![id], ..Self::default() }
+    }
+
+    /// The same environment with one more name.
+    pub(super) fn with_local(&self, name: &Spanned<String>, term: Term) -> Self {
+        let mut env = self.clone();
+        env.locals.push((name.clone(), term));
+        env
+    }
+}
+
+impl Lowering<'_> {
+    pub(super) fn name(&mut self, name: &str, span: Span, env: &Env, expected: Expected) -> Result<Term> {
+        match name {
+            "true" => return Ok(Term::Bool(self.pool.always(true))),
+            "false" => return Ok(Term::Bool(self.pool.always(false))),
+            _ => {}
+        }
+        if let Some(term) = self.resolve(name, env)? {
+            return Ok(term);
+        }
+        // A level, where one is expected.
+        if let Expected::Level(set) = expected {
+            return match self.sets[set.0].find(name) {
+                Some(level) => Ok(Term::Level(set, Arc::new(LevelTerm::Const(level)))),
+                None => Err(self.unknown_level(set, name, span)),
+            };
+        }
+        // `v.xy`: components of something that has a name.
+        if let Some((base, letters)) = name.rsplit_once('.')
+            && let Some(term) = self.resolve(base, env)?
+        {
+            return self.swizzle(term, letters, span);
+        }
+        Err(self.unknown_name(name, span, env))
+    }
+
+    pub(super) fn resolve(&mut self, name: &str, env: &Env) -> Result<Option<Term>> {
+        if let Some((_, term)) = env.locals.iter().rev().find(|(local, _)| local.value == name) {
+            return Ok(Some(term.clone()));
+        }
+        if let Some(input) = self.input_named(name) {
+            return Ok(Some(self.input_term(input, env)));
+        }
+        self.named(name, env)
+    }
+
+    /// Refuses local names that are malformed or that would hide something.
+    pub(super) fn check_local(&self, name: &Spanned<String>, env: &Env) -> Result<()> {
+        names::check(&name.value, "a local value", name.span)?;
+        if name.value.contains('.') {
+            return Err(Diagnostic::error(codes::BAD_NAME, "the name of a local value contains no dot")
+                .at(name.span, "dots group inputs"));
+        }
+        let locals = env.locals.iter().map(|(local, _)| (local, "a local value"));
+        let inputs = self.table.inputs.iter().map(|input| (&input.name, "an input"));
+        let named = self.table.names.iter().map(|named| (&named.name, "a named value"));
+        match locals.chain(inputs).chain(named).find(|(other, _)| names::identifier(&other.value) == name.value) {
+            None => Ok(()),
+            Some((first, what)) => {
+                Err(Diagnostic::error(codes::DUPLICATE, format!("the name `{}` is taken", name.value))
+                    .at(name.span, "a local value would hide it")
+                    .at(first.span, format!("first used for {what} here")))
+            }
+        }
+    }
+
+    /// Whether a name stands for something by itself, as levels do not.
+    pub(super) fn is_defined(&self, name: &str, env: &Env) -> bool {
+        env.locals.iter().any(|(local, _)| local.value == name)
+            || self.input_named(name).is_some()
+            || self.named_index.contains_key(name)
+    }
+
+    pub(super) fn input_named(&self, name: &str) -> Option<InputId> {
+        self.input_index.get(name).copied()
+    }
+
+    /// What an input means in an environment.
+    pub(super) fn input_term(&mut self, input: InputId, env: &Env) -> Term {
+        if let Some(term) = env.overrides.get(&input) {
+            return term.clone();
+        }
+        match self.input_sets[input.index()] {
+            None => Term::Number(self.pool.input(input)),
+            Some(SetId::BOOL) => Term::Bool(self.pool.level(input, LevelSet::one(1), 2)),
+            Some(set) => Term::Level(set, Arc::new(LevelTerm::Input(input))),
+        }
+    }
+
+    /// A condition or value with a name of its own.
+    pub(super) fn named(&mut self, name: &str, env: &Env) -> Result<Option<Term>> {
+        let Some(index) = self.named_index.get(name).copied() else { return Ok(None) };
+        // Without overrides a name means the same everywhere, so it is lowered once.
+        // Case references inside it depend on where it is used: then it is lowered anew.
+        let cacheable = env.overrides.is_empty() && !env.referenced;
+        if cacheable && let Some(term) = &self.named_terms[index] {
+            return Ok(Some(term.clone()));
+        }
+        if let Some(term) = env.names.borrow().get(&index) {
+            return Ok(Some(term.clone()));
+        }
+        let entry = &self.table.names[index];
+        if self.resolving.contains(&index) {
+            let chain = self.resolving.iter().chain([&index]).map(|i| self.table.names[*i].name.value.as_str());
+            let chain = chain.collect::<Vec<_>>().join(" -> ");
+            return Err(Diagnostic::error(codes::CIRCULAR_NAME, format!("`{name}` is defined by itself"))
+                .at(entry.value.span, chain)
+                .help("a name stands for something else: write out one of the definitions"));
+        }
+        self.resolving.push(index);
+        let inner = Env { locals: Vec::new(), ..env.clone() };
+        let term = self.term(&entry.value, &inner, Expected::Anything);
+        self.resolving.pop();
+        let term = term?;
+        self.label(&term, name);
+        if cacheable {
+            self.named_terms[index] = Some(term.clone());
+        }
+        env.names.borrow_mut().insert(index, term.clone());
+        Ok(Some(term))
+    }
+
+    pub(super) fn term_of_name(&mut self, name: &str) -> Result<Term> {
+        let expr = Expr { span: Span::default(), kind: ExprKind::Name(name.to_owned()) };
+        self.term(&expr, &Env::default(), Expected::Anything)
+    }
+
+    /// Remembers a name for generated code.
+    pub(super) fn label(&mut self, term: &Term, name: &str) {
+        if let Term::Number(expr) = term {
+            self.pool.set_label(*expr, name);
+        }
+    }
+
+    pub(super) fn unknown_name(&self, name: &str, span: Span, env: &Env) -> Diagnostic {
+        let inputs = self.table.inputs.iter().map(|i| i.name.value.as_str());
+        let names = self.table.names.iter().map(|n| n.name.value.as_str());
+        let locals = env.locals.iter().map(|(local, _)| local.value.as_str());
+        let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{name}` is not defined")).at(span, "unknown name");
+        if self.sets.iter().any(|set| set.names.iter().any(|n| n == name)) {
+            return error.help(format!("`{name}` is a level: compare an input with it, as in `input == {name}`"));
+        }
+        match table::nearest(name, inputs.clone().chain(names).chain(locals)) {
+            Some(close) => error.help(format!("did you mean `{close}`?")),
+            None => error.help(format!("the inputs are: {}", inputs.collect::<Vec<_>>().join(", "))),
+        }
+    }
+
+    pub(super) fn unknown_input(&self, name: &Spanned<String>, label: &str) -> Diagnostic {
+        let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", name.value));
+        let known = || self.inputs.iter().map(|i| i.name.as_str());
+        error.at(name.span, label).help(match table::nearest(&name.value, known()) {
+            Some(close) => format!("did you mean `{close}`?"),
+            None => format!("the inputs are: {}", known().collect::<Vec<_>>().join(", ")),
+        })
+    }
+}

@@ -1,0 +1,271 @@
+//! Expressions of the table language → typed terms.
+//!
+//! Types are inferred bottom-up, except that a bare level name takes its type
+//! from what it is compared with or where it ends up.
+
+use std::sync::Arc;
+
+use super::scope::Env;
+use super::{Lowering, Result, SetId};
+use crate::diag::{Diagnostic, Span, codes};
+use crate::program::LevelTerm;
+use crate::program::pool::{self, BinaryOp, Comparison, CondId, ExprId, UnaryOp};
+use crate::table::expr::{self as ast, Expr, ExprKind};
+
+/// Deepest and largest value of one row, references included.
+const MAX_DEPTH: u32 = 200;
+const MAX_SIZE: u32 = 50_000;
+
+/// How many expressions may be open at once while names and references are
+/// followed. An unoptimised build needs some 10 KiB of stack for each, of the
+/// 2 MiB that a thread has.
+const MAX_OPEN: u32 = 100;
+
+/// A typed value.
+#[derive(Debug, Clone)]
+pub(super) enum Term {
+    Number(ExprId),
+    Vector(Vec<ExprId>),
+    Bool(CondId),
+    Level(SetId, Arc<LevelTerm>),
+    /// A length and items, padded to the output's maximum.
+    List(Vec<ExprId>),
+}
+
+/// What an expression is expected to be; guides bare level names and lists.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Expected {
+    Anything,
+    Level(SetId),
+    List(SetId, usize),
+}
+
+impl Lowering<'_> {
+    /// Lowers an expression.
+    pub(super) fn term(&mut self, expr: &Expr, env: &Env, expected: Expected) -> Result<Term> {
+        // Names and references lead from one expression into the next, so the
+        // limit of the parser alone does not bound the stack.
+        if self.depth == MAX_OPEN {
+            let message = "names and references are nested too deeply";
+            return Err(Diagnostic::error(codes::TOO_DEEP, message)
+                .at(expr.span, "not followed any further")
+                .help(format!("through all of them, expressions nest at most {MAX_OPEN} deep")));
+        }
+        self.depth += 1;
+        let term = self.term_inner(expr, env, expected);
+        self.depth -= 1;
+        let term = term?;
+        self.check_size(&term, expr.span)?;
+        Ok(term)
+    }
+
+    pub(super) fn check_size(&self, term: &Term, span: Span) -> Result<()> {
+        let facts: Vec<pool::Facts> = match term {
+            Term::Number(e) => vec![self.pool.expr_facts(*e)],
+            Term::Vector(parts) | Term::List(parts) => parts.iter().map(|e| self.pool.expr_facts(*e)).collect(),
+            Term::Bool(c) => vec![self.pool.cond_facts(*c)],
+            Term::Level(..) => return Ok(()),
+        };
+        for facts in facts {
+            if facts.depth > MAX_DEPTH || facts.size > MAX_SIZE {
+                let message = "the value is too large once names and references are written out";
+                return Err(Diagnostic::error(codes::TOO_DEEP, message)
+                    .at(span, format!("{} operations, {} deep", facts.size, facts.depth))
+                    .help(format!("at most {MAX_SIZE} operations, {MAX_DEPTH} deep")));
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn term_inner(&mut self, expr: &Expr, env: &Env, expected: Expected) -> Result<Term> {
+        let span = expr.span;
+        // A level is written by its name or by its code.
+        if let Expected::Level(set) = expected
+            && matches!(&expr.kind, ExprKind::Number(_) | ExprKind::Unary(ast::UnaryOp::Negate, _))
+            && let Some(level) = self.literal_level(set, expr, env)?
+        {
+            return Ok(Term::Level(set, Arc::new(LevelTerm::Const(level))));
+        }
+        match &expr.kind {
+            ExprKind::Number(value) => Ok(Term::Number(self.constant(*value, span)?)),
+            ExprKind::Name(name) => self.name(name, span, env, expected),
+            ExprKind::Unary(ast::UnaryOp::Not, a) => {
+                let a = self.condition(a, env)?;
+                Ok(Term::Bool(self.pool.not(a)))
+            }
+            ExprKind::Unary(ast::UnaryOp::Negate, a) => {
+                let a = self.term(a, env, Expected::Anything)?;
+                self.map1(UnaryOp::Negate, a, span)
+            }
+            ExprKind::Binary(op, a, b) => self.binary(*op, a, b, span, env),
+            ExprKind::In(value, levels) => self.membership(value, levels, env),
+            ExprKind::Call(function, arguments) => self.call(function, arguments, span, env, expected),
+            ExprKind::Swizzle(value, letters) => {
+                let value = self.term(value, env, Expected::Anything)?;
+                self.swizzle(value, &letters.value, letters.span)
+            }
+            ExprKind::Case(id, set) => self.case_value(id, set, env),
+            ExprKind::If(condition, then, other) => {
+                let condition = self.condition(condition, env)?;
+                let (then_term, other_term) = self.alternatives(then, other, env, expected)?;
+                self.choose(condition, then_term, other_term, other.span)
+            }
+            ExprKind::Let(name, value, body) => {
+                self.check_local(name, env)?;
+                let term = self.term(value, env, Expected::Anything)?;
+                self.label(&term, &name.value);
+                self.term(body, &env.with_local(name, term), expected)
+            }
+            ExprKind::List(items) => match expected {
+                Expected::List(set, max) => self.list(items, set, max, span, env),
+                _ => Err(type_error(span, "a list", "only a table with `output: List(...)` has lists as values")),
+            },
+        }
+    }
+
+    pub(super) fn constant(&mut self, value: f64, span: Span) -> Result<ExprId> {
+        let expr = self.pool.number(value);
+        self.finite(expr, span)
+    }
+
+    /// Refuses constants that no shader can contain.
+    pub(super) fn finite(&mut self, expr: ExprId, span: Span) -> Result<ExprId> {
+        match self.pool.constant(expr) {
+            Some(value) if !(value as f32).is_finite() => {
+                let shown = if value.is_nan() { "not a number".to_owned() } else { format!("{value:e}") };
+                Err(Diagnostic::error(codes::NOT_FINITE, format!("this constant is {shown}"))
+                    .at(span, "not a finite f32 number")
+                    .help("constants are folded by the compiler; shading languages refuse such a constant"))
+            }
+            _ => Ok(expr),
+        }
+    }
+
+    /// Lowers an expression that must be a condition.
+    pub(super) fn condition(&mut self, expr: &Expr, env: &Env) -> Result<CondId> {
+        match self.term(expr, env, Expected::Anything)? {
+            Term::Bool(condition) => Ok(condition),
+            other => Err(type_error(expr.span, &self.describe(&other), "expected a condition")),
+        }
+    }
+
+    /// Lowers an expression that must be a number.
+    pub(super) fn numeric(&mut self, expr: &Expr, env: &Env) -> Result<ExprId> {
+        match self.term(expr, env, Expected::Anything)? {
+            Term::Number(number) => Ok(number),
+            other => Err(self.no_number(&other, expr.span)),
+        }
+    }
+
+    pub(super) fn no_number(&self, term: &Term, span: Span) -> Diagnostic {
+        let error = type_error(span, &self.describe(term), "expected a number");
+        match term {
+            Term::Level(..) | Term::Bool(_) => error.help("`f32(...)` gives the number that stands for it"),
+            _ => error,
+        }
+    }
+
+    pub(super) fn describe(&self, term: &Term) -> String {
+        match term {
+            Term::Number(_) => "a number".to_owned(),
+            Term::Vector(parts) => format!("a vector of {}", parts.len()),
+            Term::Bool(_) => "a condition".to_owned(),
+            Term::Level(set, _) => format!("one of the levels {}", self.sets[set.0].names.join(", ")),
+            Term::List(_) => "a list".to_owned(),
+        }
+    }
+
+    pub(super) fn binary(&mut self, op: ast::BinaryOp, a: &Expr, b: &Expr, span: Span, env: &Env) -> Result<Term> {
+        use ast::BinaryOp as Op;
+        match op {
+            Op::And | Op::Or => {
+                let parts = [self.condition(a, env)?, self.condition(b, env)?];
+                Ok(Term::Bool(if op == Op::And { self.pool.and(parts) } else { self.pool.or(parts) }))
+            }
+            Op::Equal | Op::NotEqual => {
+                let equal = self.equality(a, b, env)?;
+                Ok(Term::Bool(if op == Op::Equal { equal } else { self.pool.not(equal) }))
+            }
+            Op::Less | Op::LessEqual | Op::Greater | Op::GreaterEqual => {
+                let (x, y) = (self.numeric(a, env)?, self.numeric(b, env)?);
+                let condition = match op {
+                    Op::Less => self.pool.compare(Comparison::Less, x, y),
+                    Op::LessEqual => self.pool.compare(Comparison::LessEqual, x, y),
+                    Op::Greater => self.pool.compare(Comparison::Less, y, x),
+                    _ => self.pool.compare(Comparison::LessEqual, y, x),
+                };
+                Ok(Term::Bool(condition))
+            }
+            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder => {
+                let op = match op {
+                    Op::Add => BinaryOp::Add,
+                    Op::Subtract => BinaryOp::Subtract,
+                    Op::Multiply => BinaryOp::Multiply,
+                    Op::Divide => BinaryOp::Divide,
+                    _ => BinaryOp::Remainder,
+                };
+                let left = self.term(a, env, Expected::Anything)?;
+                let right = self.term(b, env, Expected::Anything)?;
+                if matches!(op, BinaryOp::Divide | BinaryOp::Remainder) && self.has_zero(&right) {
+                    return Err(Diagnostic::error(codes::DIVISION_BY_ZERO, "division by zero")
+                        .at(b.span, "this is always zero"));
+                }
+                self.map2(op, left, right, span)
+            }
+        }
+    }
+
+    pub(super) fn has_zero(&self, term: &Term) -> bool {
+        match term {
+            Term::Number(e) => self.pool.constant(*e) == Some(0.0),
+            Term::Vector(parts) => parts.iter().any(|e| self.pool.constant(*e) == Some(0.0)),
+            _ => false,
+        }
+    }
+
+    pub(super) fn choose(&mut self, condition: CondId, then: Term, other: Term, span: Span) -> Result<Term> {
+        let zip = |me: &mut Self, a: &[ExprId], b: &[ExprId]| -> Vec<ExprId> {
+            a.iter().zip(b).map(|(a, b)| me.pool.select(condition, *a, *b)).collect()
+        };
+        match (&then, &other) {
+            (Term::Number(a), Term::Number(b)) => Ok(Term::Number(self.pool.select(condition, *a, *b))),
+            (Term::Bool(a), Term::Bool(b)) => Ok(Term::Bool(self.pool.cond_if(condition, *a, *b))),
+            (Term::Vector(a), Term::Vector(b)) if a.len() == b.len() => Ok(Term::Vector(zip(self, a, b))),
+            (Term::List(a), Term::List(b)) => Ok(Term::List(zip(self, a, b))),
+            (Term::Level(s, a), Term::Level(t, b)) if s == t => {
+                Ok(Term::Level(*s, Arc::new(LevelTerm::If(condition, a.clone(), b.clone()))))
+            }
+            _ => {
+                let message = format!("the other side is {}", self.describe(&then));
+                let error = type_error(span, &self.describe(&other), &message);
+                Err(match (&then, &other) {
+                    (Term::Level(a, _), Term::Level(b, _)) => self.unlike(error, *a, *b),
+                    _ => error,
+                })
+            }
+        }
+    }
+
+    pub(super) fn list(&mut self, items: &[Expr], set: SetId, max: usize, span: Span, env: &Env) -> Result<Term> {
+        if items.len() > max {
+            return Err(Diagnostic::error(codes::TYPE, format!("the list has {} items", items.len()))
+                .at(span, format!("the output allows at most {max}")));
+        }
+        let mut parts = vec![self.pool.number(items.len() as f64)];
+        for item in items {
+            match self.term(item, env, Expected::Level(set))? {
+                Term::Level(found, term) if found == set => {
+                    parts.push(self.level_number(set, &term, |_, level| f64::from(level)));
+                }
+                other => return Err(type_error(item.span, &self.describe(&other), "expected a level of the output")),
+            }
+        }
+        let zero = self.pool.number(0.0);
+        parts.resize(max + 1, zero);
+        Ok(Term::List(parts))
+    }
+}
+
+pub(super) fn type_error(span: Span, found: &str, message: &str) -> Diagnostic {
+    Diagnostic::error(codes::TYPE, format!("{message}, but this is {found}")).at(span, format!("this is {found}"))
+}
