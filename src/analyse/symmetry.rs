@@ -88,7 +88,8 @@ pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
 fn finding(program: &Program, symmetry: &Symmetry) -> Option<Diagnostic> {
     if program.states.count() > MAX_STATES {
         let message = format!("the symmetry `{}` was not looked at", symmetry.name);
-        let reason = format!("the table has {} states, this analysis takes at most {MAX_STATES}", program.states.count());
+        let reason =
+            format!("the table has {} states, this analysis takes at most {MAX_STATES}", program.states.count());
         return Some(Diagnostic::note(codes::SYMMETRY_BROKEN, message).at(symmetry.span, "").help(reason));
     }
     let violations = violations(program, symmetry);

@@ -118,7 +118,7 @@ fn a_bare_level_takes_its_set_from_either_alternative() {
         format!(
             r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{"a": Bool(),
                 "H": Levels(values: {{"none": 0, "left": 0.5}})}}, output: Enumeration(of: "H"),
-                cases: [Case(id: 1, when: "a", value: "{value}")], default: none)"#
+                cases: [Case(id: 1, when: "a", value: "{value}")], default: "none")"#
         )
     };
     for value in ["select(left, none, a)", "select(H, 0.5, a)", "if a { select(none, H, a) } else { left }"] {
