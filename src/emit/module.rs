@@ -11,55 +11,91 @@ use super::body::Body;
 use super::dialect::{Dialect, Prefix, Type};
 use super::text::{Text, fingerprint};
 use crate::plan::{KeyLayout, LookupPlace, Plan, Proved, Shape, Step};
-use crate::program::{Domain, InputId, LevelKind, Levels, Program};
+use crate::program::{BinaryOp, Domain, InputId, LevelKind, Levels, Node, Program};
 
 /// Names of generated things that depend on the whole table.
 pub(super) struct Names {
     /// File name of the table, for comments.
     pub(super) file: String,
-    /// What names of temporaries start with; no input or named value starts so.
+    /// What names of temporaries start with; nothing that the table names looks like one.
     pub(super) temporary: String,
-    /// Every set of named or integer levels, with the name of the first input that has it.
-    sets: Vec<(String, Levels)>,
+    /// Names that a local must not have: they mean something else where locals stand.
+    hidden: BTreeSet<String>,
+    /// The number that stands for no case.
+    default: u32,
+    /// Every set of named or integer levels.
+    sets: Vec<Set>,
+}
+
+/// A set of levels in generated code.
+#[derive(Clone)]
+struct Set {
+    /// The name of the first input that has it.
+    name: String,
+    /// The constants of its levels.
+    constants: Vec<String>,
+    levels: Levels,
 }
 
 impl Names {
     pub(super) fn new(program: &Program) -> Self {
-        let mut sets: Vec<(String, Levels)> = Vec::new();
-        let mut taken = BTreeSet::new();
+        let prefix = Prefix::new(&program.name);
+        let mut sets: Vec<Set> = Vec::new();
+        let mut taken = BTreeSet::from([format!("{}_DEFAULT", prefix.upper)]);
+        let mut functions: BTreeSet<String> =
+            fetches(program).into_iter().map(|(ident, _)| format!("fetch_{ident}")).collect();
         for input in &program.inputs {
             if let Domain::Discrete(levels) = &input.domain
                 && levels.kind != LevelKind::Bool
-                && !sets.iter().any(|(_, known)| known == levels)
+                && !sets.iter().any(|known| known.levels == *levels)
             {
-                // Constants are upper case, and inputs may differ in case only.
+                // Constants are upper case, while inputs may differ in case only, and where
+                // set and level meet in a constant is not to be seen: `a_b` and `c`, `a` and `b_c`.
                 let mut name = input.ident.clone();
-                while !taken.insert(name.to_ascii_uppercase()) {
+                loop {
+                    let constants = level_constants(&prefix, &name, levels);
+                    if !constants.iter().any(|constant| taken.contains(constant))
+                        && functions.insert(format!("{name}_level"))
+                    {
+                        taken.extend(constants.iter().cloned());
+                        sets.push(Set { name, constants, levels: levels.clone() });
+                        break;
+                    }
                     name.push_str("_other");
                 }
-                sets.push((name, levels.clone()));
             }
         }
+        let mut hidden: BTreeSet<String> = program.inputs.iter().map(|input| input.ident.clone()).collect();
+        hidden.extend(["key".to_owned(), "site".to_owned(), prefix.result(), prefix.site()]);
+        hidden.extend(taken);
         let mut temporary = "t".to_owned();
-        let names = || program.inputs.iter().map(|i| i.ident.as_str());
-        while names().any(|name| name.starts_with(&temporary) && name.ends_with('t')) {
+        let looks_so = |name: &str, start: &str| {
+            let number = name.strip_prefix(start).and_then(|rest| rest.strip_suffix('t'));
+            number.is_some_and(|number| number.chars().all(|c| c.is_ascii_digit()))
+        };
+        let labels = || program.pool.labels().map(|label| label.replace('.', "_"));
+        while hidden.iter().any(|name| looks_so(name, &temporary)) || labels().any(|name| looks_so(&name, &temporary)) {
             temporary.push('t');
         }
         let file = program.source.name.rsplit('/').next().unwrap_or_default().to_owned();
-        Self { file, temporary, sets }
+        let used: BTreeSet<u32> = program.rows.iter().map(|row| row.id).collect();
+        let default = (0..=u32::MAX).rev().find(|id| !used.contains(id)).unwrap_or(u32::MAX);
+        Self { file, temporary, hidden, default, sets }
     }
 
-    fn set(&self, levels: &Levels) -> Option<&str> {
-        self.sets.iter().find(|(_, known)| known == levels).map(|(name, _)| name.as_str())
+    /// Whether a local of this name would hide something.
+    pub(super) fn hides(&self, name: &str) -> bool {
+        self.hidden.contains(name)
+    }
+
+    fn set(&self, levels: &Levels) -> Option<&Set> {
+        self.sets.iter().find(|known| known.levels == *levels)
     }
 
     /// The constant of a level.
     pub(super) fn level(&self, program: &Program, input: InputId, level: u8) -> String {
-        let prefix = Prefix::new(&program.name);
-        match program.levels(input) {
-            Some(levels) => level_constant(&prefix, self.set(levels).unwrap_or_default(), &levels.names[usize::from(level)]),
-            None => String::new(),
-        }
+        let set = program.levels(input).and_then(|levels| self.set(levels));
+        set.map(|set| set.constants[usize::from(level)].clone()).unwrap_or_default()
     }
 
     /// Name and type of a fetched input.
@@ -72,6 +108,19 @@ impl Names {
 fn level_constant(prefix: &Prefix, set: &str, level: &str) -> String {
     let level = level.replace('-', "minus_");
     format!("{}_{}_{}", prefix.upper, set.to_ascii_uppercase(), level.to_ascii_uppercase())
+}
+
+/// The constants of a set's levels; levels may differ in case only.
+fn level_constants(prefix: &Prefix, set: &str, levels: &Levels) -> Vec<String> {
+    let mut constants: Vec<String> = Vec::new();
+    for level in &levels.names {
+        let mut name = level_constant(prefix, set, level);
+        while constants.contains(&name) {
+            name.push_str("_OTHER");
+        }
+        constants.push(name);
+    }
+    constants
 }
 
 /// The type of an input; `levels` is that of named and integer levels.
@@ -139,21 +188,27 @@ impl Writer<'_, '_> {
             self.text.gap();
         }
         self.text.comment("Levels, as they stand in a key and as a fetch returns them.");
-        for (set, levels) in &self.names.sets {
-            for (index, level) in levels.names.iter().enumerate() {
-                let name = level_constant(&self.prefix, set, level);
-                self.text.line(self.dialect.constant(&name, index as u32));
+        for set in &self.names.sets {
+            for (index, name) in set.constants.iter().enumerate() {
+                self.text.line(self.dialect.constant(name, index as u32));
             }
         }
         self.text.comment("The case where none matches.");
         let name = self.dialect.global_constant(&self.prefix, "DEFAULT");
-        self.text.line(self.dialect.constant(&name, u32::MAX));
+        self.text.line(self.dialect.constant(&name, self.names.default));
         self.text.gap();
         self.text.comment("The result and the number of the case that gave it.");
         self.text.line(self.dialect.result_struct(&self.prefix, &program.output));
         self.text.gap();
-        for (set, levels) in self.names.sets.clone() {
-            self.level_function(&set, &levels);
+        if uses_remainder(self.plan) {
+            let helper = self.dialect.remainder(&self.prefix);
+            if !helper.is_empty() {
+                self.text.line(helper);
+                self.text.gap();
+            }
+        }
+        for set in self.names.sets.clone() {
+            self.level_function(&set.name, &set.levels);
         }
         self.pack_function();
     }
@@ -167,8 +222,10 @@ impl Writer<'_, '_> {
         let mut sorted: Vec<(f64, usize)> = levels.codes.iter().copied().zip(0..).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let above = |i: usize| {
-            let middle = f64::midpoint(sorted[i - 1].0, sorted[i].0);
-            format!("code >= {}", self.dialect.number(middle))
+            let (below, code) = (sorted[i - 1].0, sorted[i].0);
+            let middle = f64::from(f64::midpoint(below, code) as f32);
+            // Between neighbours in f32 there is no middle.
+            format!("code >= {}", self.dialect.number(if middle > below { middle } else { code }))
         };
         let value = if sorted.iter().enumerate().all(|(i, (_, index))| i == *index) {
             let steps: Vec<String> = (1..sorted.len()).map(|i| self.dialect.bool_to_uint(&above(i))).collect();
@@ -205,7 +262,7 @@ impl Writer<'_, '_> {
             let input = &program.inputs[field.input.index()];
             let Domain::Discrete(levels) = &input.domain else { continue };
             let level = match self.names.set(levels) {
-                Some(set) => format!("{}({})", self.dialect.global(&self.prefix, &format!("{set}_level")), input.ident),
+                Some(set) => format!("{}({})", self.dialect.global(&self.prefix, &format!("{}_level", set.name)), input.ident),
                 None => self.dialect.bool_to_uint(&input.ident),
             };
             parts.push(match field.shift {
@@ -254,6 +311,10 @@ impl Writer<'_, '_> {
                 words.len(),
                 self.dialect.lookup_call(&self.prefix, "word")
             ));
+            let import = self.dialect.lookup_import(&self.prefix);
+            if !import.is_empty() {
+                self.text.line(import);
+            }
         }
         self.text.gap();
         self.text.comment("Which way to go for a key.");
@@ -388,6 +449,11 @@ fn used_inputs(plan: &Plan<'_>) -> BTreeSet<InputId> {
         }
     }
     used
+}
+
+/// Whether a remainder is computed anywhere.
+fn uses_remainder(plan: &Plan<'_>) -> bool {
+    plan.pool.nodes().any(|node| matches!(node, Node::Binary(BinaryOp::Remainder, ..)))
 }
 
 /// Entries of the lookup per word: arms are stored in 8 or 16 bits.
