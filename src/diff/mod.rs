@@ -98,21 +98,32 @@ impl Report {
 ///
 /// # Errors
 /// When a plan cannot be proved, or the device fails.
-pub fn table(
-    program: &Program,
-    gpu: &Gpu,
-    options: &Options,
-    mut progress: impl FnMut(usize),
-) -> Result<Report, Failure> {
+pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnMut(usize)) -> Result<Report, Failure> {
     let mut proved: Vec<Proved<'_>> = Vec::new();
     for shape in &options.shapes {
         if let Ok(plan) = Plan::new(program, *shape) {
             proved.push(plan.prove()?);
         }
     }
+    plans(program, &proved, gpu, options.effort, progress)
+}
+
+/// Compares plans with the interpreter of a program: normally their own. With
+/// plans of another program, which has the same inputs and cases but means
+/// something else, it shows that a wrong shader would be found.
+///
+/// # Errors
+/// When the device fails.
+pub fn plans(
+    program: &Program,
+    proved: &[Proved<'_>],
+    gpu: &Gpu,
+    effort: Effort,
+    mut progress: impl FnMut(usize),
+) -> Result<Report, Failure> {
     let mut kernels = Vec::new();
     let mut runs = Vec::new();
-    for proved in &proved {
+    for proved in proved {
         for entry in Entry::ALL {
             for language in Language::ALL {
                 kernels.push(Kernel::new(gpu, proved, entry, language)?);
@@ -129,7 +140,7 @@ pub fn table(
             }
         }
     }
-    let mut points = Points::new(program, options.effort);
+    let mut points = Points::new(program, effort);
     let mut interpreter = Batch::<f32>::new(program);
     let mut judge = Judge { program, intervals: IntervalInterpreter::new(program) };
     let mut report = Report { table: program.name.clone(), states: program.states.count(), points: 0, runs };
@@ -187,7 +198,8 @@ impl Judge<'_> {
             same_bits &= a.to_bits() == b.to_bits();
             if same_case && a.to_bits() != b.to_bits() {
                 let difference = (f64::from(a) - f64::from(b)).abs();
-                // A NaN on one side only is as far off as can be.
+                // A NaN on one side only is as far off as can be; two are no difference.
+                let difference = if a.is_nan() && b.is_nan() || a == b { 0.0 } else { difference };
                 run.worst = run.worst.max(if difference.is_nan() { f64::INFINITY } else { difference });
             }
         }

@@ -92,11 +92,11 @@ impl<'p> Points<'p> {
         points
     }
 
-    fn grid(&self, base: &Point) -> Vec<Point> {
+    fn grid(&mut self, base: &Point) -> Vec<Point> {
         let count = self.continuous.len();
         // Powers of two as steps keep the grid exact, and exactly on many lines.
         let fits = |steps: &usize| (*steps + 1).checked_pow(count as u32).is_some_and(|n| n <= self.effort.grid);
-        let steps = [8, 4, 2, 1].into_iter().find(fits).unwrap_or(1);
+        let Some(steps) = [8, 4, 2, 1].into_iter().find(fits) else { return self.corners(base) };
         let mut points = vec![base.clone()];
         for (input, lo, hi) in &self.continuous {
             let mut next = Vec::with_capacity(points.len() * (steps + 1));
@@ -109,6 +109,18 @@ impl<'p> Points<'p> {
                 }
             }
             points = next;
+        }
+        points
+    }
+
+    /// Where a grid would be too large, some corners of the ranges: the lowest, the highest, and random ones.
+    fn corners(&mut self, base: &Point) -> Vec<Point> {
+        let mut points = vec![base.clone(); self.effort.grid.max(2)];
+        for (number, point) in points.iter_mut().enumerate() {
+            for (input, lo, hi) in self.continuous.clone() {
+                let high = if number < 2 { number == 1 } else { self.next() % 2 == 1 };
+                point[input.index()] = Some(single(if high { hi } else { lo }));
+            }
         }
         points
     }

@@ -32,7 +32,8 @@ impl Body<'_, '_> {
         loop {
             match self.plan.step(at).clone() {
                 Step::Test { condition, then, other } => {
-                    let condition = self.condition(condition, &Locals::new());
+                    let locals = self.computed_constants(&[], &[condition]);
+                    let condition = self.condition(condition, &locals);
                     let open = self.dialect.if_open(bare(&condition));
                     self.text.open(open);
                     self.step(then);
@@ -90,7 +91,8 @@ impl Body<'_, '_> {
         };
         let output = &program.output;
         let components: Vec<String> = if output.is_integer() {
-            leaf.values.iter().map(|value| self.integer(*value)).collect()
+            let locals = self.computed_constants(&leaf.values, &[]);
+            leaf.values.iter().map(|value| self.integer(*value, &locals)).collect()
         } else {
             let locals = self.locals(&leaf.values);
             leaf.values.iter().map(|value| self.expr(*value, &locals)).collect()
@@ -108,9 +110,9 @@ impl Body<'_, '_> {
         for value in values {
             self.visit(*value, &mut uses, &mut order);
         }
-        let mut locals = Locals::new();
+        let mut locals = self.computed_constants(values, &[]);
         let mut depths: HashMap<ExprId, usize> = HashMap::new();
-        let mut taken: BTreeSet<String> = BTreeSet::new();
+        let mut taken: BTreeSet<String> = locals.values().cloned().collect();
         for expr in order {
             let pool = &self.plan.pool;
             let children = children(pool.node(expr));
@@ -124,11 +126,8 @@ impl Body<'_, '_> {
                 continue;
             }
             let name = match label {
-                Some(label) if !taken.contains(&label) => label,
-                _ => {
-                    self.temporaries += 1;
-                    format!("{}{}t", self.names.temporary, self.temporaries)
-                }
+                Some(label) if !taken.contains(&label) && !self.names.hides(&label) => label,
+                _ => self.temporary(),
             };
             let value = self.expr(expr, &locals);
             let line = self.dialect.local(&Type::Float, &name, bare(&value), self.prefix);
@@ -136,6 +135,65 @@ impl Body<'_, '_> {
             taken.insert(name.clone());
             locals.insert(expr, name);
             depths.insert(expr, 0);
+        }
+        locals
+    }
+
+    fn temporary(&mut self) -> String {
+        self.temporaries += 1;
+        format!("{}{}t", self.names.temporary, self.temporaries)
+    }
+
+    /// Declares locals for the constants of operations that must not be
+    /// evaluated by the shader's compiler: it would refuse `1.0 / 0.0`, or
+    /// compute it more exactly than the table does.
+    fn computed_constants(&mut self, exprs: &[ExprId], conditions: &[CondId]) -> Locals {
+        let mut found = Vec::new();
+        let (mut seen_exprs, mut seen_conds) = (BTreeSet::new(), BTreeSet::new());
+        let (mut exprs, mut conditions) = (exprs.to_vec(), conditions.to_vec());
+        let pool = &self.plan.pool;
+        loop {
+            if let Some(condition) = conditions.pop() {
+                if !seen_conds.insert(condition) {
+                    continue;
+                }
+                match pool.cond(condition) {
+                    Cond::Const(_) | Cond::Level(..) => {}
+                    Cond::Compare(_, a, b) => {
+                        if pool.constant(*a).is_some() && pool.constant(*b).is_some() {
+                            found.push(*a);
+                        }
+                        exprs.extend([*a, *b]);
+                    }
+                    Cond::Not(a) => conditions.push(*a),
+                    Cond::And(parts) | Cond::Or(parts) => conditions.extend(parts),
+                    Cond::If(c, a, b) => conditions.extend([*c, *a, *b]),
+                }
+            } else if let Some(expr) = exprs.pop() {
+                if !seen_exprs.insert(expr) {
+                    continue;
+                }
+                let node = pool.node(expr);
+                if let Node::Select(condition, ..) = node {
+                    conditions.push(condition);
+                }
+                let children = children(node);
+                if !pool.folds(node) {
+                    found.extend(children.iter().copied().filter(|child| pool.constant(*child).is_some()));
+                }
+                exprs.extend(children);
+            } else {
+                break;
+            }
+        }
+        let mut locals = Locals::new();
+        for constant in found {
+            if !locals.contains_key(&constant) {
+                let name = self.temporary();
+                let value = self.expr(constant, &Locals::new());
+                self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
+                locals.insert(constant, name);
+            }
         }
         locals
     }
@@ -163,7 +221,7 @@ impl Body<'_, '_> {
             // Occurs in the result map of a symmetry only, which is not part of any plan.
             Node::Result => String::new(),
             Node::Unary(op, a) => self.dialect.unary(op, &of(a)),
-            Node::Binary(op, a, b) => self.dialect.binary(op, &of(a), &of(b)),
+            Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
             Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),
             Node::Select(c, a, b) => {
                 let (a, b) = (of(a), of(b));
@@ -173,11 +231,11 @@ impl Body<'_, '_> {
     }
 
     /// An expression of whole numbers: constants and selections.
-    fn integer(&self, expr: ExprId) -> String {
+    fn integer(&self, expr: ExprId, locals: &Locals) -> String {
         match self.plan.pool.node(expr) {
             Node::Select(c, a, b) => {
-                let condition = self.condition(c, &Locals::new());
-                self.dialect.select(bare(&condition), &self.integer(a), &self.integer(b))
+                let condition = self.condition(c, locals);
+                self.dialect.select(bare(&condition), &self.integer(a, locals), &self.integer(b, locals))
             }
             Node::Const(number) => self.dialect.uint(number.get() as u32),
             _ => self.dialect.uint(0),
@@ -211,7 +269,7 @@ impl Body<'_, '_> {
             Cond::Or(parts) => joined(parts, " || "),
             Cond::If(c, a, b) => {
                 let [c, a, b] = [c, a, b].map(|part| self.condition(*part, locals));
-                format!("(({c} && {a}) || (!({}) && {b}))", bare(&c))
+                self.dialect.select(bare(&c), bare(&a), bare(&b))
             }
         }
     }

@@ -53,6 +53,10 @@ pub(super) trait Dialect {
     fn ty(&self, ty: &Type, prefix: &Prefix) -> String;
     /// The first lines of a file, after the comment.
     fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String;
+    /// Functions that the language lacks, for a table that needs remainders.
+    fn remainder(&self, _: &Prefix) -> String {
+        String::new()
+    }
     /// The last lines of a file.
     fn epilogue(&self) -> &'static str {
         ""
@@ -100,7 +104,7 @@ pub(super) trait Dialect {
     /// An operation on one number.
     fn unary(&self, op: UnaryOp, a: &str) -> String;
     /// An operation on two numbers.
-    fn binary(&self, op: BinaryOp, a: &str, b: &str) -> String;
+    fn binary(&self, prefix: &Prefix, op: BinaryOp, a: &str, b: &str) -> String;
     /// An operation on three numbers.
     fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String;
     /// The output made of its components.
@@ -112,6 +116,10 @@ pub(super) trait Dialect {
     /// The function of the host that reads a word of the lookup, where it is one.
     fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
         format!("{}_lookup({word})", prefix.lower)
+    }
+    /// What makes the host's reader of the lookup visible where the module cannot see it by itself.
+    fn lookup_import(&self, _: &Prefix) -> String {
+        String::new()
     }
     /// Names of the entry points in this language: with f32 levels, with a key, and both with the case.
     fn entry_names(&self, prefix: &Prefix) -> [String; 4] {

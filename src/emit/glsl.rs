@@ -67,6 +67,14 @@ impl Dialect for Glsl {
         out
     }
 
+    fn remainder(&self, prefix: &Prefix) -> String {
+        // A function, because written in place it would double its operands, and nested ones exponentially.
+        format!(
+            "// WGSL's `%`: `mod` rounds down, this towards zero.\nfloat {}_remainder(float a, float b) {{\n    return a - b * trunc(a / b);\n}}",
+            prefix.lower
+        )
+    }
+
     fn constant(&self, name: &str, value: u32) -> String {
         format!("const uint {name} = {value}u;")
     }
@@ -115,10 +123,9 @@ impl Dialect for Glsl {
         }
     }
 
-    fn binary(&self, op: BinaryOp, a: &str, b: &str) -> String {
+    fn binary(&self, prefix: &Prefix, op: BinaryOp, a: &str, b: &str) -> String {
         match op {
-            // GLSL's `mod` rounds down; the remainder of WGSL rounds towards zero.
-            BinaryOp::Remainder => format!("({a} - {b} * trunc({a} / {b}))"),
+            BinaryOp::Remainder => call(&format!("{}_remainder", prefix.lower), &[a, b]),
             BinaryOp::Atan2 => call("atan", &[a, b]),
             _ => infix(op, a, b).unwrap_or_else(|| {
                 let name = BINARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("max", |(name, _)| *name);

@@ -10,7 +10,8 @@ use std::fmt::Write;
 
 use super::dialect::{Dialect, Prefix, Type};
 use super::glsl::{Glsl, GlslVersion};
-use super::module::{self, fetches};
+use super::module;
+use super::names::fetches;
 use super::wgsl::Wgsl;
 use crate::plan::{LookupPlace, Proved, Shape};
 use crate::program::{Domain, LevelKind, Output, Program};
@@ -143,22 +144,21 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     let prefix = Prefix::new(&program.name);
     let layout = Layout::new(program, entry);
     let fetches = fetches(program);
-    let mut out = module::write(proved, &Wgsl);
-    out += "// ---- the table over columns of inputs ----\n\n";
-    out += "@group(0) @binding(0) var<storage, read> umbrage_plain: array<u32>;\n";
+    let mut out = String::from("// ---- the table over columns of inputs ----\n\n");
+    out += "@group(0) @binding(0) var<storage, read> $plain: array<u32>;\n";
     if !fetches.is_empty() {
-        out += "@group(0) @binding(1) var<storage, read> umbrage_fetched: array<u32>;\n";
+        out += "@group(0) @binding(1) var<storage, read> $fetched: array<u32>;\n";
     }
-    out += "@group(0) @binding(2) var<storage, read_write> umbrage_out: array<u32>;\n";
+    out += "@group(0) @binding(2) var<storage, read_write> $out: array<u32>;\n";
     if reads_lookup(proved) {
-        out += "@group(0) @binding(3) var<storage, read> umbrage_lookup: array<u32>;\n\n";
-        let _ = writeln!(out, "fn {}_lookup(word: u32) -> u32 {{ return umbrage_lookup[word]; }}", prefix.lower);
+        out += "@group(0) @binding(3) var<storage, read> $lookup: array<u32>;\n\n";
+        let _ = writeln!(out, "fn {}_lookup(word: u32) -> u32 {{ return $lookup[word]; }}", prefix.lower);
     }
     if !fetches.is_empty() {
         let _ = writeln!(out, "\nstruct {} {{ row: u32, }}", prefix.site());
     }
     for (index, (ident, ty)) in fetches.iter().enumerate() {
-        let word = format!("umbrage_fetched[site.row * {}u + {index}u]", layout.fetched);
+        let word = format!("$fetched[site.row * {}u + {index}u]", layout.fetched);
         let value = match ty {
             Type::Float => format!("bitcast<f32>({word})"),
             Type::Bool => format!("{word} != 0u"),
@@ -178,7 +178,7 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
         "\n@compute @workgroup_size({WORKGROUP})\nfn {}_columns(@builtin(global_invocation_id) id: vec3<u32>) {{",
         prefix.lower
     );
-    out += "    let row = id.x;\n    if (row >= umbrage_plain[0]) {\n        return;\n    }\n";
+    out += "    let row = id.x;\n    if (row >= $plain[0]) {\n        return;\n    }\n";
     let _ = writeln!(out, "    let at = 1u + row * {}u;", layout.plain);
     let mut arguments = arguments(program, entry, "bitcast<f32>");
     if !fetches.is_empty() {
@@ -189,7 +189,7 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     let _ = writeln!(out, "    let result = {function}({});", arguments.join(", "));
     store(&mut out, program, &layout, "bitcast<u32>");
     out += "}\n";
-    out
+    module::write(proved, &Wgsl) + &name_buffers(&prefix, &out)
 }
 
 /// The same in GLSL 450.
@@ -206,20 +206,20 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
             "layout(std430, set = 0, binding = {binding}) {access}buffer {name}_block {{ uint {name}[]; }};"
         );
     };
-    buffer(&mut out, 0, "readonly ", "umbrage_plain");
+    buffer(&mut out, 0, "readonly ", "$plain");
     if !fetches.is_empty() {
-        buffer(&mut out, 1, "readonly ", "umbrage_fetched");
+        buffer(&mut out, 1, "readonly ", "$fetched");
     }
-    buffer(&mut out, 2, "", "umbrage_out");
+    buffer(&mut out, 2, "", "$out");
     if reads_lookup(proved) {
-        buffer(&mut out, 3, "readonly ", "umbrage_lookup");
-        let _ = writeln!(out, "uint {}_lookup(uint word) {{ return umbrage_lookup[word]; }}", prefix.lower);
+        buffer(&mut out, 3, "readonly ", "$lookup");
+        let _ = writeln!(out, "uint {}_lookup(uint word) {{ return $lookup[word]; }}", prefix.lower);
     }
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ uint row; }};", prefix.site());
     }
     for (index, (ident, ty)) in fetches.iter().enumerate() {
-        let word = format!("umbrage_fetched[site.row * {}u + {index}u]", layout.fetched);
+        let word = format!("$fetched[site.row * {}u + {index}u]", layout.fetched);
         let value = match ty {
             Type::Float => format!("uintBitsToFloat({word})"),
             Type::Bool => format!("{word} != 0u"),
@@ -234,8 +234,10 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
             count_fetch(&layout, index),
         );
     }
-    out += &module::write(proved, &glsl);
-    out += "void main() {\n    uint row = gl_GlobalInvocationID.x;\n    if (row >= umbrage_plain[0]) {\n        return;\n    }\n";
+    let before = name_buffers(&prefix, &out) + &module::write(proved, &glsl);
+    let mut out = String::from(
+        "void main() {\n    uint row = gl_GlobalInvocationID.x;\n    if (row >= $plain[0]) {\n        return;\n    }\n",
+    );
     let _ = writeln!(out, "    uint at = 1u + row * {}u;", layout.plain);
     let mut arguments = arguments(program, entry, "uintBitsToFloat");
     if !fetches.is_empty() {
@@ -246,18 +248,23 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     let _ = writeln!(out, "    {} result = {function}({});", prefix.result(), arguments.join(", "));
     store(&mut out, program, &layout, "floatBitsToUint");
     out += "}\n";
-    out
+    before + &name_buffers(&prefix, &out)
+}
+
+/// Names the buffers, which stand as `$plain` and so on, other than anything of the table.
+fn name_buffers(prefix: &Prefix, text: &str) -> String {
+    text.replace('$', if prefix.lower.starts_with("umbrage") { "columns_" } else { "umbrage_" })
 }
 
 fn count_fetch(layout: &Layout, index: usize) -> String {
     let word = 1 + layout.values + index / COUNTS_PER_WORD;
-    let place = format!("umbrage_out[site.row * {}u + {word}u]", layout.out);
+    let place = format!("$out[site.row * {}u + {word}u]", layout.out);
     format!("{place} = {place} + {}u;", 1_u32 << (4 * (index % COUNTS_PER_WORD)))
 }
 
 fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
     let plain = program.inputs.iter().filter(|input| input.fetched.is_none());
-    let word = |index: usize| format!("umbrage_plain[at + {index}u]");
+    let word = |index: usize| format!("$plain[at + {index}u]");
     match entry {
         Entry::Key => {
             let continuous = plain.filter(|input| matches!(input.domain, Domain::Continuous { .. })).count();
@@ -275,7 +282,7 @@ fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
 
 fn store(out: &mut String, program: &Program, layout: &Layout, to_bits: &str) {
     let mut put = |index: usize, value: String| {
-        let _ = writeln!(out, "    umbrage_out[row * {}u + {index}u] = {value};", layout.out);
+        let _ = writeln!(out, "    $out[row * {}u + {index}u] = {value};", layout.out);
     };
     put(0, "result.case_id".to_owned());
     match &program.output {

@@ -9,16 +9,10 @@ use std::collections::BTreeSet;
 
 use super::body::Body;
 use super::dialect::{Dialect, Prefix, Type};
-use super::names::{Names, input_type, level_constant};
+use super::names::{Names, fetches, input_type};
 use super::text::{Text, fingerprint};
 use crate::plan::{KeyLayout, LookupPlace, Plan, Proved, Shape, Step};
-use crate::program::{Domain, InputId, LevelKind, Levels, Program};
-
-/// The inputs that are fetched, by identifier, in the order declared.
-pub(super) fn fetches(program: &Program) -> Vec<(String, Type)> {
-    let fetched = program.inputs.iter().filter(|input| input.fetched.is_some());
-    fetched.map(|input| (input.ident.clone(), input_type(&input.domain, Type::Uint))).collect()
-}
+use crate::program::{BinaryOp, Domain, InputId, LevelKind, Levels, Node, Program};
 
 /// Writes the module of a plan.
 pub(super) fn write(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
@@ -74,21 +68,27 @@ impl Writer<'_, '_> {
             self.text.gap();
         }
         self.text.comment("Levels, as they stand in a key and as a fetch returns them.");
-        for (set, levels) in &self.names.sets {
-            for (index, level) in levels.names.iter().enumerate() {
-                let name = level_constant(&self.prefix, set, level);
-                self.text.line(self.dialect.constant(&name, index as u32));
+        for set in &self.names.sets {
+            for (index, name) in set.constants.iter().enumerate() {
+                self.text.line(self.dialect.constant(name, index as u32));
             }
         }
         self.text.comment("The case where none matches.");
         let name = self.dialect.global_constant(&self.prefix, "DEFAULT");
-        self.text.line(self.dialect.constant(&name, u32::MAX));
+        self.text.line(self.dialect.constant(&name, self.names.default));
         self.text.gap();
         self.text.comment("The result and the number of the case that gave it.");
         self.text.line(self.dialect.result_struct(&self.prefix, &program.output));
         self.text.gap();
-        for (set, levels) in self.names.sets.clone() {
-            self.level_function(&set, &levels);
+        if uses_remainder(self.plan) {
+            let helper = self.dialect.remainder(&self.prefix);
+            if !helper.is_empty() {
+                self.text.line(helper);
+                self.text.gap();
+            }
+        }
+        for set in self.names.sets.clone() {
+            self.level_function(&set.name, &set.levels);
         }
         self.pack_function();
     }
@@ -102,8 +102,10 @@ impl Writer<'_, '_> {
         let mut sorted: Vec<(f64, usize)> = levels.codes.iter().copied().zip(0..).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let above = |i: usize| {
-            let middle = f64::midpoint(sorted[i - 1].0, sorted[i].0);
-            format!("code >= {}", self.dialect.number(middle))
+            let (below, code) = (sorted[i - 1].0, sorted[i].0);
+            let middle = f64::from(f64::midpoint(below, code) as f32);
+            // Between neighbours in f32 there is no middle.
+            format!("code >= {}", self.dialect.number(if middle > below { middle } else { code }))
         };
         let value = if sorted.iter().enumerate().all(|(i, (_, index))| i == *index) {
             let steps: Vec<String> = (1..sorted.len()).map(|i| self.dialect.bool_to_uint(&above(i))).collect();
@@ -139,7 +141,9 @@ impl Writer<'_, '_> {
             let input = &program.inputs[field.input.index()];
             let Domain::Discrete(levels) = &input.domain else { continue };
             let level = match self.names.set(levels) {
-                Some(set) => format!("{}({})", self.dialect.global(&self.prefix, &format!("{set}_level")), input.ident),
+                Some(set) => {
+                    format!("{}({})", self.dialect.global(&self.prefix, &format!("{}_level", set.name)), input.ident)
+                }
                 None => self.dialect.bool_to_uint(&input.ident),
             };
             parts.push(match field.shift {
@@ -192,6 +196,10 @@ impl Writer<'_, '_> {
                 words.len(),
                 self.dialect.lookup_call(&self.prefix, "word")
             ));
+            let import = self.dialect.lookup_import(&self.prefix);
+            if !import.is_empty() {
+                self.text.line(import);
+            }
         }
         self.text.gap();
         self.text.comment("Which way to go for a key.");
@@ -342,6 +350,11 @@ fn used_inputs(plan: &Plan<'_>) -> BTreeSet<InputId> {
         }
     }
     used
+}
+
+/// Whether a remainder is computed anywhere.
+fn uses_remainder(plan: &Plan<'_>) -> bool {
+    plan.pool.nodes().any(|node| matches!(node, Node::Binary(BinaryOp::Remainder, ..)))
 }
 
 /// Entries of the lookup per word: arms are stored in 8 or 16 bits.

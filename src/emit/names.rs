@@ -9,51 +9,86 @@ use crate::program::{Domain, InputId, LevelKind, Levels, Program};
 pub(super) struct Names {
     /// File name of the table, for comments.
     pub(super) file: String,
-    /// What names of temporaries start with; no input or named value starts so.
+    /// What names of temporaries start with; nothing that the table names looks like one.
     pub(super) temporary: String,
-    /// Every set of named or integer levels, with the name of the first input that has it.
-    pub(super) sets: Vec<(String, Levels)>,
+    /// Names that a local must not have: they mean something else where locals stand.
+    hidden: BTreeSet<String>,
+    /// The number that stands for no case.
+    pub(super) default: u32,
+    /// Every set of named or integer levels.
+    pub(super) sets: Vec<Set>,
+}
+
+/// A set of levels in generated code.
+#[derive(Clone)]
+pub(super) struct Set {
+    /// The name of the first input that has it.
+    pub(super) name: String,
+    /// The constants of its levels.
+    pub(super) constants: Vec<String>,
+    /// What they are.
+    pub(super) levels: Levels,
 }
 
 impl Names {
     pub(super) fn new(program: &Program) -> Self {
-        let mut sets: Vec<(String, Levels)> = Vec::new();
-        let mut taken = BTreeSet::new();
+        let prefix = Prefix::new(&program.name);
+        let mut sets: Vec<Set> = Vec::new();
+        let mut taken = BTreeSet::from([format!("{}_DEFAULT", prefix.upper)]);
+        let mut functions: BTreeSet<String> =
+            fetches(program).into_iter().map(|(ident, _)| format!("fetch_{ident}")).collect();
         for input in &program.inputs {
             if let Domain::Discrete(levels) = &input.domain
                 && levels.kind != LevelKind::Bool
-                && !sets.iter().any(|(_, known)| known == levels)
+                && !sets.iter().any(|known| known.levels == *levels)
             {
-                // Constants are upper case, and inputs may differ in case only.
+                // Constants are upper case, while inputs may differ in case only, and where
+                // set and level meet in a constant is not to be seen: `a_b` and `c`, `a` and `b_c`.
                 let mut name = input.ident.clone();
-                while !taken.insert(name.to_ascii_uppercase()) {
+                loop {
+                    let constants = level_constants(&prefix, &name, levels);
+                    if !constants.iter().any(|constant| taken.contains(constant))
+                        && functions.insert(format!("{name}_level"))
+                    {
+                        taken.extend(constants.iter().cloned());
+                        sets.push(Set { name, constants, levels: levels.clone() });
+                        break;
+                    }
                     name.push_str("_other");
                 }
-                sets.push((name, levels.clone()));
             }
         }
+        let mut hidden: BTreeSet<String> = program.inputs.iter().map(|input| input.ident.clone()).collect();
+        hidden.extend(["key".to_owned(), "site".to_owned(), prefix.result(), prefix.site()]);
+        hidden.extend(taken);
         let mut temporary = "t".to_owned();
-        let names = || program.inputs.iter().map(|i| i.ident.as_str());
-        while names().any(|name| name.starts_with(&temporary) && name.ends_with('t')) {
+        let looks_so = |name: &str, start: &str| {
+            let number = name.strip_prefix(start).and_then(|rest| rest.strip_suffix('t'));
+            number.is_some_and(|number| number.chars().all(|c| c.is_ascii_digit()))
+        };
+        let labels = || program.pool.labels().map(|label| label.replace('.', "_"));
+        while hidden.iter().any(|name| looks_so(name, &temporary)) || labels().any(|name| looks_so(&name, &temporary)) {
             temporary.push('t');
         }
         let file = program.source.name.rsplit('/').next().unwrap_or_default().to_owned();
-        Self { file, temporary, sets }
+        let used: BTreeSet<u32> = program.rows.iter().map(|row| row.id).collect();
+        let default = (0..=u32::MAX).rev().find(|id| !used.contains(id)).unwrap_or(u32::MAX);
+        Self { file, temporary, hidden, default, sets }
     }
 
-    pub(super) fn set(&self, levels: &Levels) -> Option<&str> {
-        self.sets.iter().find(|(_, known)| known == levels).map(|(name, _)| name.as_str())
+    /// Whether a local of this name would hide something.
+    pub(super) fn hides(&self, name: &str) -> bool {
+        self.hidden.contains(name)
+    }
+
+    pub(super) fn set(&self, levels: &Levels) -> Option<&Set> {
+        self.sets.iter().find(|known| known.levels == *levels)
     }
 
     /// The constant of a level.
-    pub(super) fn level(&self, program: &Program, input: InputId, level: u8) -> String {
-        let prefix = Prefix::new(&program.name);
-        match program.levels(input) {
-            Some(levels) => {
-                level_constant(&prefix, self.set(levels).unwrap_or_default(), &levels.names[usize::from(level)])
-            }
-            None => String::new(),
-        }
+    pub(super) fn level(&self, program: &Program, input: InputId, level: u8) -> &str {
+        let set = program.levels(input).and_then(|levels| self.set(levels));
+        set.map_or("", |set| &set.constants[usize::from(level)])
     }
 
     /// Name and type of a fetched input.
@@ -63,9 +98,22 @@ impl Names {
     }
 }
 
-pub(super) fn level_constant(prefix: &Prefix, set: &str, level: &str) -> String {
+fn level_constant(prefix: &Prefix, set: &str, level: &str) -> String {
     let level = level.replace('-', "minus_");
     format!("{}_{}_{}", prefix.upper, set.to_ascii_uppercase(), level.to_ascii_uppercase())
+}
+
+/// The constants of a set's levels; levels may differ in case only.
+fn level_constants(prefix: &Prefix, set: &str, levels: &Levels) -> Vec<String> {
+    let mut constants: Vec<String> = Vec::new();
+    for level in &levels.names {
+        let mut name = level_constant(prefix, set, level);
+        while constants.contains(&name) {
+            name.push_str("_OTHER");
+        }
+        constants.push(name);
+    }
+    constants
 }
 
 /// The type of an input; `levels` is that of named and integer levels.
@@ -75,4 +123,10 @@ pub(super) fn input_type(domain: &Domain, levels: Type) -> Type {
         Domain::Discrete(_) => levels,
         Domain::Continuous { .. } => Type::Float,
     }
+}
+
+/// The inputs that are fetched, by identifier, in the order declared.
+pub(super) fn fetches(program: &Program) -> Vec<(String, Type)> {
+    let fetched = program.inputs.iter().filter(|input| input.fetched.is_some());
+    fetched.map(|input| (input.ident.clone(), input_type(&input.domain, Type::Uint))).collect()
 }

@@ -1,7 +1,7 @@
 //! Rust: a module of plain functions that needs nothing but `core` arithmetic
 //! and the floating-point functions of `std`.
 
-use super::dialect::{Dialect, Prefix, Type, call, infix};
+use super::dialect::{Dialect, Prefix, Type, bare, call, infix};
 use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
 
 /// Rust.
@@ -107,9 +107,13 @@ impl Dialect for Rust {
             UnaryOp::Round => call("f32::round_ties_even", &[a]),
             UnaryOp::Trunc => call("f32::trunc", &[a]),
             UnaryOp::Sqrt => call("f32::sqrt", &[a]),
-            UnaryOp::Fract => format!("({a} - f32::floor({a}))"),
+            // Blocks, because written in place these would double their operand, and nested ones exponentially.
+            UnaryOp::Fract => format!("({{ let t: f32 = {}; t - f32::floor(t) }})", bare(a)),
             UnaryOp::Saturate => call("f32::min", &[&call("f32::max", &[a, "0.0"]), "1.0"]),
-            UnaryOp::Sign => format!("(if {a} > 0.0 {{ 1.0 }} else if {a} < 0.0 {{ -1.0 }} else {{ {a} * 0.0 }})"),
+            UnaryOp::Sign => format!(
+                "({{ let t: f32 = {}; if t > 0.0 {{ 1.0 }} else if t < 0.0 {{ -1.0 }} else {{ t * 0.0 }} }})",
+                bare(a)
+            ),
             UnaryOp::InverseSqrt => format!("((1.0 / f64::sqrt(f64::from({a} as f32))) as f32)"),
             UnaryOp::Acos => wide("acos"),
             UnaryOp::Acosh => wide("acosh"),
@@ -132,7 +136,7 @@ impl Dialect for Rust {
         }
     }
 
-    fn binary(&self, op: BinaryOp, a: &str, b: &str) -> String {
+    fn binary(&self, _: &Prefix, op: BinaryOp, a: &str, b: &str) -> String {
         let wide = |name: &str| format!("(f64::{name}(f64::from({a} as f32), f64::from({b} as f32)) as f32)");
         match op {
             BinaryOp::Remainder => format!("({a} % {b})"),
@@ -172,5 +176,9 @@ impl Dialect for Rust {
 
     fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
         format!("{} {{ value: {value}, case_id: {case} }}", prefix.result())
+    }
+
+    fn lookup_import(&self, prefix: &Prefix) -> String {
+        format!("use super::{}_lookup;", prefix.lower)
     }
 }

@@ -76,7 +76,7 @@ impl Dialect for Wgsl {
         }
     }
 
-    fn binary(&self, op: BinaryOp, a: &str, b: &str) -> String {
+    fn binary(&self, _: &Prefix, op: BinaryOp, a: &str, b: &str) -> String {
         match BINARY_FUNCTIONS.iter().find(|(_, o)| *o == op) {
             Some((name, _)) => call(name, &[a, b]),
             None => infix(op, a, b).unwrap_or_else(|| format!("({a} % {b})")),

@@ -78,15 +78,30 @@ impl<'a, 'p> Kernel<'a, 'p> {
             label: Some(&program.name),
             source: wgpu::ShaderSource::Naga(Cow::Owned(module.module)),
         });
+        let layout = Layout::new(program, entry);
+        let has_lookup = proved.plan().shape == Shape::Switch(LookupPlace::Buffer);
+        // Written down rather than derived from the shader, which may leave out what no case uses.
+        let mut bindings = vec![(0, true), (2, false)];
+        bindings.extend((layout.fetched > 0).then_some((1, true)));
+        bindings.extend(has_lookup.then_some((3, true)));
+        let bindings: Vec<_> =
+            bindings.into_iter().map(|(binding, read_only)| storage_binding(binding, read_only)).collect();
+        let group =
+            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &bindings });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&group)],
+            immediate_size: 0,
+        });
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(&program.name),
-            layout: None,
+            layout: Some(&pipeline_layout),
             module: &shader,
             entry_point: None,
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             cache: None,
         });
-        let lookup = (proved.plan().shape == Shape::Switch(LookupPlace::Buffer)).then(|| {
+        let lookup = has_lookup.then(|| {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("lookup"),
                 contents: bytemuck::cast_slice(&lookup_words(proved.plan())),
@@ -94,7 +109,6 @@ impl<'a, 'p> Kernel<'a, 'p> {
             })
         });
         gpu.check()?;
-        let layout = Layout::new(program, entry);
         Ok(Self { gpu, program, key: proved.plan().key.clone(), entry, layout, pipeline, lookup })
     }
 
@@ -258,5 +272,18 @@ impl<'a, 'p> Kernel<'a, 'p> {
             outputs.fetched.push(once.or(repeated));
             outputs.repeated.push(repeated);
         }
+    }
+}
+
+fn storage_binding(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
     }
 }

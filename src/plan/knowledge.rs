@@ -71,7 +71,7 @@ impl Knowledge {
             }
             Cond::Compare(op, a, b) => {
                 let (a, b) = (self.expr(pool, a), self.expr(pool, b));
-                pool.compare(op, a, b)
+                pool.recompare(op, a, b)
             }
             Cond::Not(a) => {
                 let a = self.cond(pool, a);
@@ -93,7 +93,10 @@ impl Knowledge {
     }
 
     /// An expression, with everything known put in. Only selections are
-    /// resolved; arithmetic stays as it is, so that rounding does.
+    /// resolved; arithmetic stays as it is, so that rounding does. What becomes
+    /// constant is folded if nobody can tell; otherwise it is computed when the
+    /// shader runs: `1 / f32(n)` with `n` known to be 0 would be a constant that
+    /// shading languages refuse.
     pub(super) fn expr(&self, pool: &mut Pool, expr: ExprId) -> ExprId {
         self.expr_memo(pool, expr, &mut HashMap::new())
     }
@@ -106,16 +109,16 @@ impl Knowledge {
             Node::Const(_) | Node::Input(_) | Node::Result => expr,
             Node::Unary(op, a) => {
                 let a = self.expr_memo(pool, a, memo);
-                pool.unary(op, a)
+                pool.rebuild(Node::Unary(op, a))
             }
             Node::Binary(op, a, b) => {
                 let (a, b) = (self.expr_memo(pool, a, memo), self.expr_memo(pool, b, memo));
-                pool.binary(op, a, b)
+                pool.rebuild(Node::Binary(op, a, b))
             }
             Node::Ternary(op, a, b, c) => {
                 let (a, b, c) =
                     (self.expr_memo(pool, a, memo), self.expr_memo(pool, b, memo), self.expr_memo(pool, c, memo));
-                pool.ternary(op, a, b, c)
+                pool.rebuild(Node::Ternary(op, a, b, c))
             }
             Node::Select(c, a, b) => {
                 let c = self.cond(pool, c);

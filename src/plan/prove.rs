@@ -333,9 +333,10 @@ impl Prover<'_, '_> {
             Cond::Level(input, levels) => levels.contains(self.level(*input, fetched)),
             Cond::Compare(op, a, b) => {
                 let (a, b) = (self.resolve(*a, fetched), self.resolve(*b, fetched));
-                match (self.pool.constant(a), self.pool.constant(b)) {
-                    (Some(a), Some(b)) => op.holds(a, b),
-                    _ => self.oracle.answer(Question::Compare(*op, a, b), 2) == 0,
+                let compared = self.pool.recompare(*op, a, b);
+                match self.pool.truth(compared) {
+                    Some(value) => value,
+                    None => self.oracle.answer(Question::Compare(*op, a, b), 2) == 0,
                 }
             }
             Cond::Not(a) => !self.holds(*a, fetched),
@@ -352,7 +353,8 @@ impl Prover<'_, '_> {
         values.iter().map(|value| self.resolve(*value, fetched)).collect()
     }
 
-    /// An expression with every selection decided by the oracle, and nothing else changed.
+    /// An expression with every selection decided by the oracle. Nothing else
+    /// changes: constants are folded only where that leaves every bit as it is.
     fn resolve(&mut self, expr: ExprId, fetched: &mut InputSet) -> ExprId {
         self.resolve_memo(expr, fetched, &mut HashMap::new())
     }
@@ -370,16 +372,16 @@ impl Prover<'_, '_> {
             Node::Const(_) | Node::Result | Node::Input(_) => expr,
             Node::Unary(op, a) => {
                 let a = self.resolve_memo(a, fetched, memo);
-                self.pool.unary(op, a)
+                self.pool.rebuild(Node::Unary(op, a))
             }
             Node::Binary(op, a, b) => {
                 let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
-                self.pool.binary(op, a, b)
+                self.pool.rebuild(Node::Binary(op, a, b))
             }
             Node::Ternary(op, a, b, c) => {
                 let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
                 let c = self.resolve_memo(c, fetched, memo);
-                self.pool.ternary(op, a, b, c)
+                self.pool.rebuild(Node::Ternary(op, a, b, c))
             }
             Node::Select(c, a, b) => {
                 let chosen = if self.holds(c, fetched) { a } else { b };

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::InputId;
+use super::{InputId, Real};
 
 /// An expression in a [`Pool`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -334,6 +334,16 @@ impl Pool {
         self.labels.get(&id).map(String::as_str)
     }
 
+    /// All names of expressions, in no particular order.
+    pub fn labels(&self) -> impl Iterator<Item = &str> {
+        self.labels.values().map(String::as_str)
+    }
+
+    /// All expressions.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> {
+        self.exprs.iter().map(|(node, _)| *node)
+    }
+
     /// Names an expression; the first name stays.
     pub fn set_label(&mut self, id: ExprId, label: &str) {
         if !matches!(self.node(id), Node::Const(_) | Node::Input(_) | Node::Result) {
@@ -410,6 +420,54 @@ impl Pool {
     /// The result of the table, for the result map of a symmetry.
     pub fn result(&mut self) -> ExprId {
         self.intern(Node::Result)
+    }
+
+    /// Whether an operation can be folded once its operands are known, without a
+    /// trace in the result: the folded constant, rounded to `f32`, must be what
+    /// the operation gives in `f32`, and it must not be one that shading
+    /// languages refuse. Folding is free in a table as written, where it is part
+    /// of the meaning; this is for operands that become known later.
+    pub fn folds(&self, node: Node) -> bool {
+        let known = |id| self.constant(id);
+        let agree = |wide: f64, narrow: f32| narrow.is_finite() && wide as f32 == narrow;
+        match node {
+            Node::Unary(op, a) => known(a).is_none_or(|a| agree(op.apply(a), f32::unary(op, a as f32))),
+            Node::Binary(op, a, b) => match (op, known(a), known(b)) {
+                (BinaryOp::Divide | BinaryOp::Remainder, _, Some(0.0)) => false,
+                (_, Some(a), Some(b)) => agree(op.apply(a, b), f32::binary(op, a as f32, b as f32)),
+                _ => true,
+            },
+            Node::Ternary(op, a, b, c) => match (op, known(a), known(b), known(c)) {
+                (TernaryOp::Clamp, _, Some(lo), Some(hi)) if lo > hi => false,
+                (TernaryOp::Smoothstep, Some(lo), Some(hi), _) if lo >= hi => false,
+                (_, Some(a), Some(b), Some(c)) => {
+                    agree(op.apply(a, b, c), f32::ternary(op, a as f32, b as f32, c as f32))
+                }
+                _ => true,
+            },
+            Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => true,
+        }
+    }
+
+    /// An operation whose operands became known later: folded if [`Pool::folds`] says so, else left as it is.
+    pub fn rebuild(&mut self, node: Node) -> ExprId {
+        match node {
+            node if !self.folds(node) => self.intern(node),
+            Node::Unary(op, a) => self.unary(op, a),
+            Node::Binary(op, a, b) => self.binary(op, a, b),
+            Node::Ternary(op, a, b, c) => self.ternary(op, a, b, c),
+            node => self.intern(node),
+        }
+    }
+
+    /// A comparison whose operands became known later: decided if `f32` and `f64` agree, else left as it is.
+    pub fn recompare(&mut self, op: Comparison, a: ExprId, b: ExprId) -> CondId {
+        match (self.constant(a), self.constant(b)) {
+            (Some(x), Some(y)) if op.holds(x, y) != op.holds(x as f32, y as f32) => {
+                self.intern_cond(Cond::Compare(op, a, b))
+            }
+            _ => self.compare(op, a, b),
+        }
     }
 
     /// An operation on one number.

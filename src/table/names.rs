@@ -24,6 +24,18 @@ fn reserved() -> &'static BTreeMap<&'static str, &'static str> {
 /// Dots group inputs (`d_c.r`): each part is checked by itself.
 pub(crate) fn check(name: &str, what: &str, span: Span) -> Result<(), Diagnostic> {
     well_formed(name, what, span)?;
+    // GLSL and WebGL keep everything that begins so; generated names begin with that of the table.
+    for start in ["gl", "webgl"] {
+        let rest = name.strip_prefix(start);
+        if rest.is_some_and(|rest| rest.starts_with(['_', '.']) || (rest.is_empty() && what == "a table")) {
+            return Err(Diagnostic::error(
+                codes::RESERVED_NAME,
+                format!("names that begin with `{start}_` are reserved"),
+            )
+            .at(span, format!("cannot be the name of {what}"))
+            .help("the names are taken in: GLSL"));
+        }
+    }
     for part in name.split('.') {
         if let Some(languages) = reserved().get(part) {
             return Err(Diagnostic::error(codes::RESERVED_NAME, format!("`{part}` is a reserved word"))

@@ -84,7 +84,11 @@ impl<'t> Lowering<'t> {
         }
         let identifier = names::identifier(&name.value);
         let prefix = format!("{}_", self.table.name.value);
-        if identifier == self.table.name.value || identifier.starts_with(&prefix) {
+        // Generated constants are the same in capitals, structures in camel case.
+        let table = self.table.name.value.to_ascii_lowercase();
+        let lower = identifier.to_ascii_lowercase();
+        let structure = ["result", "site"].iter().any(|what| lower == table.replace('_', "") + what);
+        if identifier == self.table.name.value || lower.starts_with(&format!("{table}_")) || structure {
             let message = format!("`{}` would hide what is generated for the table", name.value);
             errors.push(
                 Diagnostic::error(codes::RESERVED_NAME, message).at(
