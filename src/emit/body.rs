@@ -1,5 +1,6 @@
 //! Steps, conditions and expressions → statements of some language.
 
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
 use super::dialect::{Dialect, Prefix, Type, bare};
@@ -188,11 +189,11 @@ impl Body<'_, '_> {
         }
         let mut locals = Locals::new();
         for constant in found {
-            if !locals.contains_key(&constant) {
+            if let Entry::Vacant(entry) = locals.entry(constant) {
                 let name = self.temporary();
                 let value = self.expr(constant, &Locals::new());
                 self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
-                locals.insert(constant, name);
+                entry.insert(name);
             }
         }
         locals
