@@ -103,7 +103,11 @@ impl Dialect for Glsl {
     }
 
     fn select(&self, condition: &str, then: &str, other: &str) -> String {
-        format!("({condition} ? {then} : {other})")
+        // A condition that is itself a choice would take what follows for its own.
+        match condition.contains('?') {
+            true => format!("(({condition}) ? {then} : {other})"),
+            false => format!("({condition} ? {then} : {other})"),
+        }
     }
 
     fn bool_to_uint(&self, condition: &str) -> String {
