@@ -18,6 +18,7 @@ mod wgsl;
 
 use crate::diag::Failure;
 use crate::plan::Proved;
+use crate::program::Output;
 
 pub use glsl::GlslVersion;
 pub use module::lookup_words;
@@ -92,7 +93,8 @@ impl Target {
 ///
 /// WGSL and GLSL 450 are parsed and validated by naga; SPIR-V, HLSL and MSL
 /// are written by naga from the validated WGSL. GLSL 330 and ES 300, which
-/// naga does not read, differ from GLSL 450 in their header only.
+/// naga does not read, differ from GLSL 450 in their header only. GLSL of a
+/// table whose output is a list is not read by naga either.
 ///
 /// # Errors
 /// When validation fails, which would be a bug of the printer.
@@ -105,7 +107,9 @@ pub fn emit(proved: &Proved<'_>, target: Target) -> Result<Vec<u8>, Failure> {
         }
         Target::Glsl(version) => {
             let source = glsl(proved, version);
-            if version == GlslVersion::V450 {
+            // naga's GLSL front end gives an array another type inside of a structure than outside.
+            let readable = !matches!(proved.plan().program.output, Output::List { .. });
+            if version == GlslVersion::V450 && readable {
                 glsl_module(proved.plan().program, &harness::glsl_library(proved, &source, version))?;
             }
             Ok(source.into_bytes())
