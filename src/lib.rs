@@ -35,6 +35,8 @@ pub mod eval;
 pub mod explain;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(feature = "report")]
+pub mod picture;
 pub mod plan;
 pub mod program;
 pub mod show;

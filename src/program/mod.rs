@@ -15,6 +15,7 @@
 //! Assumptions and symmetries are carried along but never change the meaning.
 
 mod domain;
+pub mod draw;
 mod lower;
 pub(crate) mod normal;
 mod ops;
@@ -82,6 +83,8 @@ pub struct Program {
     pub output: Output,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
+    /// How inputs are drawn.
+    pub draw: Vec<(InputId, draw::Draw)>,
     /// Declared symmetries.
     pub symmetries: Vec<Symmetry>,
     /// Inputs with expected results.

@@ -6,6 +6,7 @@
 //! Names are resolved, types checked and references followed by
 //! [`crate::program`]; nothing past that point looks at RON again.
 
+pub mod draw;
 pub mod expr;
 mod lex;
 pub(crate) mod names;
@@ -51,6 +52,8 @@ pub struct Table {
     pub symmetries: Vec<Symmetry>,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
+    /// How inputs are drawn.
+    pub draw: Vec<(Spanned<String>, draw::Draw)>,
     /// What the table returns.
     pub output: Spanned<Output>,
     /// The rows, in the order written.
