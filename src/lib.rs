@@ -25,6 +25,7 @@
 
 pub mod analyse;
 pub mod build;
+pub mod capture;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod diag;

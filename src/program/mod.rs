@@ -232,6 +232,11 @@ impl Program {
         }
     }
 
+    /// Names the very text that this program was read from, as generated files do.
+    pub fn fingerprint(&self) -> String {
+        format!("fnv1a {:016x}", self.source.fingerprint())
+    }
+
     /// The line of the source that a place is on, counted from 1.
     pub fn line(&self, span: Span) -> usize {
         self.source.line(span.start)
