@@ -127,10 +127,7 @@ impl<'g> Stopwatch<'g> {
     ///
     /// # Errors
     /// When the device fails.
-    pub(crate) fn time(
-        &self,
-        record: impl FnOnce(&mut wgpu::CommandEncoder, &Marks<'_>),
-    ) -> Result<Duration, Failure> {
+    pub(crate) fn time(&self, record: impl FnOnce(&mut wgpu::CommandEncoder, &Marks<'_>)) -> Result<Duration, Failure> {
         let gpu = self.gpu;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let Some(queries) = &self.queries else {
