@@ -37,5 +37,7 @@ pub mod explain;
 pub mod gpu;
 pub mod plan;
 pub mod program;
+#[cfg(feature = "render")]
+pub mod shadow;
 pub mod show;
 pub mod table;
