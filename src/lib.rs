@@ -38,5 +38,7 @@ pub mod explain;
 pub mod gpu;
 pub mod plan;
 pub mod program;
+#[cfg(feature = "render")]
+pub mod shadow;
 pub mod show;
 pub mod table;

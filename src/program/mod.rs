@@ -20,6 +20,8 @@ pub(crate) mod normal;
 mod ops;
 mod pool;
 pub mod print;
+pub(crate) mod region;
+pub(crate) mod symbolic;
 
 use std::sync::Arc;
 
