@@ -25,6 +25,7 @@
 
 pub mod analyse;
 pub mod build;
+pub mod capture;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod diag;
@@ -39,5 +40,7 @@ pub mod gpu;
 pub mod picture;
 pub mod plan;
 pub mod program;
+#[cfg(feature = "render")]
+pub mod shadow;
 pub mod show;
 pub mod table;

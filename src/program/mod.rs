@@ -21,6 +21,8 @@ pub(crate) mod normal;
 mod ops;
 mod pool;
 pub mod print;
+pub(crate) mod region;
+pub(crate) mod symbolic;
 
 use std::sync::Arc;
 
@@ -233,6 +235,11 @@ impl Program {
             Domain::Discrete(levels) => Some(levels),
             Domain::Continuous { .. } => None,
         }
+    }
+
+    /// Names the very text that this program was read from, as generated files do.
+    pub fn fingerprint(&self) -> String {
+        format!("fnv1a {:016x}", self.source.fingerprint())
     }
 
     /// The line of the source that a place is on, counted from 1.
