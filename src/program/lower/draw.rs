@@ -60,7 +60,8 @@ impl Lowering<'_> {
             }
             written::Draw::Run { along, ends } => {
                 let set = self.levels_of(input, name)?;
-                let along = self.hinted(along, "sides", |draw| matches!(draw, written::Draw::Sides { of: None, .. }))?;
+                let along =
+                    self.hinted(along, "sides", |draw| matches!(draw, written::Draw::Sides { of: None, .. }))?;
                 let mut closed = vec![None; self.sets[set.0].count()];
                 for (level, count) in ends {
                     closed[self.level(set, level)?] = Some(*count);
