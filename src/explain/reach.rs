@@ -204,7 +204,9 @@ impl<'p> Search<'p> {
                 Ok(None) => {}
                 Err(NeedsFetch(input)) => {
                     let values: Vec<Value> = match &self.program.inputs[input.index()].domain {
-                        Domain::Discrete(levels) => (0..levels.count()).map(|level| Value::Level(level as u8)).collect(),
+                        Domain::Discrete(levels) => {
+                            (0..levels.count()).map(|level| Value::Level(level as u8)).collect()
+                        }
                         Domain::Continuous { lo, hi, .. } => lattice(*lo, *hi).map(Value::Number).into(),
                     };
                     // The first value is to be tried first, and the list is worked off from its end.
