@@ -2,6 +2,7 @@
 
 mod calls;
 mod declare;
+mod draw;
 mod examples;
 mod images;
 mod levels;
@@ -120,6 +121,7 @@ impl Lowering<'_> {
             Some(Assumption { name, condition, doc, span: assumption.condition.span })
         });
         let assumptions = assumptions.collect();
+        let draw = self.draw(errors);
         let symmetries = table.symmetries.iter().filter_map(|s| keep(self.symmetry(s), errors)).collect();
         let mut examples = Vec::new();
         for (row, case) in table.cases.iter().enumerate() {
@@ -147,6 +149,7 @@ impl Lowering<'_> {
             default: default?,
             output: self.output,
             assumptions,
+            draw,
             symmetries,
             examples,
         })
