@@ -78,7 +78,7 @@ impl GpuFrame {
 ///
 /// # Errors
 /// With the sizes that can.
-pub fn check_map(gpu: &Gpu, size: u32) -> Result<(), Failure> {
+pub(super) fn check_map(gpu: &Gpu, size: u32) -> Result<(), Failure> {
     // The border takes a texel on each side.
     let most = gpu.device.limits().max_texture_dimension_2d - 2;
     if size == 0 || size > most {
@@ -93,7 +93,7 @@ pub fn check_map(gpu: &Gpu, size: u32) -> Result<(), Failure> {
 ///
 /// # Errors
 /// With the sizes that can.
-pub fn check_picture(gpu: &Gpu, width: u32, height: u32) -> Result<(), Failure> {
+pub(super) fn check_picture(gpu: &Gpu, width: u32, height: u32) -> Result<(), Failure> {
     let limits = gpu.device.limits();
     let side = limits.max_texture_dimension_2d;
     // The widest thing that is stored for a pixel takes four words.
