@@ -7,6 +7,7 @@
 
 mod coverage;
 mod examples;
+mod levels;
 mod overlap;
 mod region;
 mod symbolic;
@@ -18,6 +19,7 @@ use crate::program::Program;
 
 pub use coverage::{Coverage, Dead, coverage};
 pub use examples::agrees;
+pub use levels::{FINDINGS, Findings, Level, Levels};
 pub use overlap::{Overlap, overlaps};
 pub use symmetry::{Violation, admissible, violations, violations_under};
 
