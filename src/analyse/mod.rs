@@ -9,13 +9,11 @@ mod coverage;
 mod examples;
 mod levels;
 mod overlap;
-mod region;
-mod symbolic;
 mod symmetry;
 mod unused;
 
 use crate::diag::{Diagnostic, Severity};
-use crate::program::Program;
+use crate::program::{Program, symbolic};
 
 pub use coverage::{Coverage, Dead, coverage};
 pub use examples::agrees;

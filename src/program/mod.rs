@@ -15,11 +15,14 @@
 //! Assumptions and symmetries are carried along but never change the meaning.
 
 mod domain;
+pub mod draw;
 mod lower;
 pub(crate) mod normal;
 mod ops;
 mod pool;
 pub mod print;
+pub(crate) mod region;
+pub(crate) mod symbolic;
 
 use std::sync::Arc;
 
@@ -82,6 +85,8 @@ pub struct Program {
     pub output: Output,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
+    /// How inputs are drawn.
+    pub draw: Vec<(InputId, draw::Draw)>,
     /// Declared symmetries.
     pub symmetries: Vec<Symmetry>,
     /// Inputs with expected results.
@@ -257,6 +262,11 @@ impl Program {
             Domain::Discrete(levels) => Some(levels),
             Domain::Continuous { .. } => None,
         }
+    }
+
+    /// Names the very text that this program was read from, as generated files do.
+    pub fn fingerprint(&self) -> String {
+        format!("fnv1a {:016x}", self.source.fingerprint())
     }
 
     /// The line of the source that a place is on, counted from 1.

@@ -6,6 +6,7 @@
 //! Names are resolved, types checked and references followed by
 //! [`crate::program`]; nothing past that point looks at RON again.
 
+pub mod draw;
 pub mod expr;
 mod lex;
 pub(crate) mod names;
@@ -51,6 +52,8 @@ pub struct Table {
     pub symmetries: Vec<Symmetry>,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
+    /// How inputs are drawn.
+    pub draw: Vec<(Spanned<String>, draw::Draw)>,
     /// What the table returns.
     pub output: Spanned<Output>,
     /// The rows, in the order written.
@@ -310,20 +313,27 @@ impl Table {
 
 /// Reads a UTF-8 file of bounded size, with errors that say what to do.
 pub(crate) fn read_text(path: &Path, max: u64) -> Result<String, Failure> {
-    let name = path.to_string_lossy().replace('\\', "/");
-    let fail =
-        |message: &str, help: &str| Failure::bare(&*name, Diagnostic::error(codes::UNREADABLE, message).help(help));
-    let metadata = std::fs::metadata(path)
-        .map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions"))?;
+    String::from_utf8(read_bytes(path, max)?).map_err(|e| unreadable(path, &not_utf8(&e), "save it as UTF-8"))
+}
+
+/// Reads a file of bounded size, with errors that say what to do.
+pub(crate) fn read_bytes(path: &Path, max: u64) -> Result<Vec<u8>, Failure> {
+    let io = |e: std::io::Error| {
+        unreadable(path, &format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions")
+    };
+    let metadata = std::fs::metadata(path).map_err(io)?;
     if metadata.is_dir() {
-        return Err(fail("is a directory, a file was expected", "name the file itself"));
+        return Err(unreadable(path, "is a directory, a file was expected", "name the file itself"));
     }
     if metadata.len() > max {
-        return Err(fail(&format!("is larger than {} MiB", max >> 20), "split it"));
+        return Err(unreadable(path, &format!("is larger than {} MiB", max >> 20), "split it"));
     }
-    let bytes = std::fs::read(path)
-        .map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions"))?;
-    String::from_utf8(bytes).map_err(|e| fail(&not_utf8(&e), "save it as UTF-8"))
+    std::fs::read(path).map_err(io)
+}
+
+fn unreadable(path: &Path, message: &str, help: &str) -> Failure {
+    let name = path.to_string_lossy().replace('\\', "/");
+    Failure::bare(name, Diagnostic::error(codes::UNREADABLE, message).help(help))
 }
 
 /// Says that bytes are not text, and where.

@@ -37,6 +37,8 @@ struct TableRon<'a> {
     symmetries: RawMap<'a>,
     #[serde(default = "RawMap::empty")]
     assume: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    draw: RawMap<'a>,
     output: Raw<'a>,
     cases: Vec<Raw<'a>>,
     default: Raw<'a>,
@@ -232,6 +234,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     let names = errors.each(ron.names.0, |(n, v)| Ok(Named { name: read.word(n)?, value: read.condition(v)? }));
     let symmetries = errors.each(ron.symmetries.0, |(n, v)| read.symmetry(n, v));
     let assumptions = errors.each(ron.assume.0, |(n, v)| read.assumption(n, v));
+    let draw = errors.each(ron.draw.0, |(n, v)| read.draw(n, v));
     let output = errors.take(read.output(ron.output));
     let cases = errors.each(ron.cases, |raw| read.case(raw));
     let default = errors.take(read.expr(ron.default));
@@ -249,6 +252,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
             names,
             symmetries,
             assumptions,
+            draw,
             output,
             cases,
             default,

@@ -2,6 +2,7 @@
 
 mod calls;
 mod declare;
+mod draw;
 mod examples;
 mod images;
 mod levels;
@@ -120,6 +121,7 @@ impl Lowering<'_> {
             Some(Assumption { name, condition, doc, span: assumption.condition.span })
         });
         let assumptions = assumptions.collect();
+        let draw = self.draw(errors);
         let symmetries = table.symmetries.iter().filter_map(|s| keep(self.symmetry(s), errors)).collect();
         let continuity = table.continuity.iter().filter_map(|c| keep(self.continuity(c), errors)).collect();
         let mut examples = Vec::new();
@@ -148,6 +150,7 @@ impl Lowering<'_> {
             default: default?,
             output: self.output,
             assumptions,
+            draw,
             symmetries,
             examples,
             continuity,
