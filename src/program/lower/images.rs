@@ -98,7 +98,7 @@ impl<'t> Lowering<'t> {
         let (name, span) = (&continuity.name.value, continuity.name.span);
         names::check_inner(name, "a border or switch", span)?;
         let (mut levels, mut numbers) = (Vec::new(), Vec::new());
-        let mut inputs = |names: &[Spanned<String>], allowed: &dyn Fn(InputId) -> bool, help: &str| {
+        let inputs = |names: &[Spanned<String>], allowed: &dyn Fn(InputId) -> bool, help: &str| {
             let find = |name: &Spanned<String>| match self.input_named(&name.value) {
                 Some(input) if allowed(input) => Ok(input),
                 Some(_) => Err(Diagnostic::error(codes::SYMMETRY, format!("`{}` cannot stand here", name.value))
