@@ -17,11 +17,7 @@ type MappedInputs = (Vec<(InputId, LevelTerm)>, Vec<(InputId, ExprId)>);
 
 impl<'t> Lowering<'t> {
     /// What each mapped input becomes under a symmetry.
-    pub(super) fn images(
-        &mut self,
-        map: &'t [(Spanned<String>, Image)],
-        env: &Env,
-    ) -> Result<HashMap<InputId, Term>> {
+    pub(super) fn images(&mut self, map: &'t [(Spanned<String>, Image)], env: &Env) -> Result<HashMap<InputId, Term>> {
         let mut images = HashMap::new();
         for (name, image) in map {
             let Some(input) = self.input_named(&name.value) else {
