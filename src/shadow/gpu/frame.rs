@@ -54,7 +54,8 @@ impl GpuFrame {
                 view_formats: &[],
             };
             let data = bytemuck::cast_slice(data);
-            let texture = gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, data);
+            let texture =
+                gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, data);
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
         let frame = Self {

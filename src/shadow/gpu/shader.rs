@@ -169,7 +169,8 @@ impl<'g> Shader<'g> {
             address_mode_v: wgpu::AddressMode::ClampToEdge,
             ..Default::default()
         });
-        let texture = |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
+        let texture =
+            |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
         let frame_group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout: &self.frame_layout,
@@ -310,12 +311,16 @@ impl Bound<'_, '_> {
                 pass.dispatch_workgroups(x, y, 1);
             }
             Pipeline::Render(pipeline) => {
-                let view = self.target.as_ref().map(|target| target.create_view(&wgpu::TextureViewDescriptor::default()));
+                let view =
+                    self.target.as_ref().map(|target| target.create_view(&wgpu::TextureViewDescriptor::default()));
                 let attachment = view.as_ref().map(|view| wgpu::RenderPassColorAttachment {
                     view,
                     depth_slice: None,
                     resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                        store: wgpu::StoreOp::Store,
+                    },
                 });
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     color_attachments: &[attachment],

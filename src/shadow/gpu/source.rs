@@ -100,7 +100,8 @@ pub fn source(
         };
         let plan = proved.plan();
         // A plan that was made under assumptions may not ask for dominance at all.
-        let asked = plan.key.fields().iter().any(|field| plan.program.inputs[field.input.index()].name.starts_with("dom"));
+        let asked =
+            plan.key.fields().iter().any(|field| plan.program.inputs[field.input.index()].name.starts_with("dom"));
         let _ = writeln!(out, "const READ_DOMINANCE: bool = {};", skeleton.dominance && asked);
         out.push_str(match skeleton.reads {
             Reads::Single => SINGLE_READS,
@@ -162,12 +163,18 @@ fn key_function(plan: &Plan<'_>) -> Result<String, Failure> {
         let name = &program.inputs[field.input.index()].name;
         let known = LEVELS.iter().find(|(input, _)| input == name);
         let fits = known.is_some_and(|(_, words)| {
-            program.levels(field.input).is_some_and(|levels| levels.names.iter().map(String::as_str).eq(words.iter().copied()))
+            program
+                .levels(field.input)
+                .is_some_and(|levels| levels.names.iter().map(String::as_str).eq(words.iter().copied()))
         });
         if !fits {
-            let inputs: Vec<String> = LEVELS.iter().map(|(name, words)| format!("{name} ({})", words.join(", "))).collect();
-            let error = Diagnostic::error(codes::NOT_APPLICABLE, format!("the renderer does not provide the input `{name}`, or has other levels of it"))
-                .help(format!("it provides, in this order: {}", inputs.join("; ")));
+            let inputs: Vec<String> =
+                LEVELS.iter().map(|(name, words)| format!("{name} ({})", words.join(", "))).collect();
+            let error = Diagnostic::error(
+                codes::NOT_APPLICABLE,
+                format!("the renderer does not provide the input `{name}`, or has other levels of it"),
+            )
+            .help(format!("it provides, in this order: {}", inputs.join("; ")));
             return Err(Failure::new(program.source.clone(), error));
         }
         parts.push(format!("(u32({name}) << {}u)", field.shift));
