@@ -15,6 +15,8 @@
 mod case_free;
 pub mod cpu;
 mod frame;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod inputs;
 mod probe;
 mod technique;
