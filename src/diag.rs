@@ -164,6 +164,10 @@ pub mod codes {
     pub const DEAD_CASE: Code = Code("U0504");
     pub const UNUSED_INPUT: Code = Code("U0505");
     pub const SYMMETRY_BROKEN: Code = Code("U0506");
+    pub const REMOVABLE: Code = Code("U0551");
+    pub const POLE: Code = Code("U0552");
+    pub const CANCELS: Code = Code("U0553");
+    pub const OVERFLOW: Code = Code("U0554");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");
