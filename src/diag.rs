@@ -185,6 +185,10 @@ pub mod codes {
     pub const RENAMED: Code = Code("U0522");
     pub const NOT_ANALYSED: Code = Code("U0530");
     pub const UNUSED_ALLOW: Code = Code("U0531");
+    pub const REMOVABLE: Code = Code("U0551");
+    pub const POLE: Code = Code("U0552");
+    pub const CANCELS: Code = Code("U0553");
+    pub const OVERFLOW: Code = Code("U0554");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");

@@ -9,6 +9,8 @@ mod coverage;
 mod examples;
 mod levels;
 mod overlap;
+#[cfg(feature = "precise")]
+mod singular;
 mod symmetry;
 mod unused;
 
@@ -19,11 +21,19 @@ pub use coverage::{Coverage, Dead, coverage};
 pub use examples::agrees;
 pub use levels::{FINDINGS, Findings, Level, Levels};
 pub use overlap::{Overlap, overlaps};
+#[cfg(feature = "precise")]
+pub use singular::{Singularity, singularities};
 pub use symmetry::{Violation, admissible, violations, violations_under};
 
 /// Every analysis that can find something wrong, in the order in which findings are shown.
-const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] =
-    &[examples::findings, overlap::findings, coverage::findings, unused::findings];
+const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] = &[
+    examples::findings,
+    overlap::findings,
+    coverage::findings,
+    unused::findings,
+    #[cfg(feature = "precise")]
+    singular::findings,
+];
 
 /// Analyses that only ever note facts.
 const REMARKS: &[fn(&Program) -> Vec<Diagnostic>] = &[symmetry::findings];
