@@ -16,6 +16,7 @@ mod diff;
 mod eval;
 mod explain;
 mod json_input;
+mod levels;
 mod output;
 mod report;
 

@@ -123,6 +123,7 @@ impl Lowering<'_> {
         let assumptions = assumptions.collect();
         let draw = self.draw(errors);
         let symmetries = table.symmetries.iter().filter_map(|s| keep(self.symmetry(s), errors)).collect();
+        let continuity = table.continuity.iter().filter_map(|c| keep(self.continuity(c), errors)).collect();
         let mut examples = Vec::new();
         for (row, case) in table.cases.iter().enumerate() {
             for example in &case.examples {
@@ -152,6 +153,9 @@ impl Lowering<'_> {
             draw,
             symmetries,
             examples,
+            continuity,
+            allow: table.allow.clone(),
+            exhibit: table.exhibit.clone(),
         })
     }
 }
