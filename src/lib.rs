@@ -37,6 +37,7 @@ pub mod explain;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod plan;
+pub mod profile;
 pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;
