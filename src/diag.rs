@@ -170,6 +170,25 @@ pub mod codes {
     pub const DEAD_CASE: Code = Code("U0504");
     pub const UNUSED_INPUT: Code = Code("U0505");
     pub const SYMMETRY_BROKEN: Code = Code("U0506");
+    pub const NO_LINE: Code = Code("U0507");
+    pub const LINES_CROSS: Code = Code("U0508");
+    pub const ORDER_MATTERS: Code = Code("U0509");
+    pub const NOT_REACHED: Code = Code("U0510");
+    pub const DEAD_LINE: Code = Code("U0511");
+    pub const SYMMETRY_ASSUMED: Code = Code("U0512");
+    pub const OUT_OF_RANGE: Code = Code("U0513");
+    pub const NOT_A_NUMBER: Code = Code("U0514");
+    pub const FLOAT_EQUALITY: Code = Code("U0515");
+    pub const JUMP: Code = Code("U0516");
+    pub const INEXACT: Code = Code("U0520");
+    pub const MERGEABLE: Code = Code("U0521");
+    pub const RENAMED: Code = Code("U0522");
+    pub const NOT_ANALYSED: Code = Code("U0530");
+    pub const UNUSED_ALLOW: Code = Code("U0531");
+    pub const REMOVABLE: Code = Code("U0551");
+    pub const POLE: Code = Code("U0552");
+    pub const CANCELS: Code = Code("U0553");
+    pub const OVERFLOW: Code = Code("U0554");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");

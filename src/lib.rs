@@ -36,6 +36,8 @@ pub mod eval;
 pub mod explain;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(feature = "report")]
+pub mod picture;
 pub mod plan;
 pub mod profile;
 pub mod program;

@@ -49,7 +49,11 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut programs = Vec::new();
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
-            programs.push(Program::read(&file)?);
+            let program = Program::read(&file)?;
+            // An exhibit is compared only if it was named.
+            if !path.is_dir() || program.exhibit.is_none() {
+                programs.push(program);
+            }
         }
     }
     let frames = match (arguments.frames.as_slice(), programs.as_slice()) {

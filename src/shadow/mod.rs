@@ -13,6 +13,8 @@
 //! cases can be compared pixel by pixel.
 
 mod frame;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 mod technique;
 
 pub use frame::{
