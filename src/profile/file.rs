@@ -334,7 +334,7 @@ mod tests {
             message(&text.replacen("version: 1", "version: 7", 1)),
             "is a profile of version 7, and this umbrage reads version 1"
         );
-        assert_eq!(message("Table()"), "1:6: this is not a profile: Expected struct `Profile` but found `Table`");
+        assert_eq!(message("Table()"), "1:1: this is not a profile: Expected struct `Profile` but found `Table`");
         let many = format!("(\"H\", [{}]),", "\"a\", ".repeat(60)).repeat(8);
         let hostile = format!("Profile(version: 1, table: \"t\", fingerprint: \"\", inputs: [{many}], scenes: [])");
         assert_eq!(message(&hostile), "1:29: the inputs have more combinations than any table");

@@ -9,6 +9,8 @@
 //! Nothing here knows how a scene is rendered or a device is driven; who does
 //! hands over columns of inputs, or the state and case of every pixel.
 
+#[cfg(feature = "report")]
+mod chart;
 mod count;
 mod file;
 mod fit;
@@ -18,6 +20,8 @@ use std::collections::BTreeMap;
 
 use crate::program::{Program, StateSpace};
 
+#[cfg(feature = "report")]
+pub use chart::chart;
 pub use count::{Frame, TILE};
 pub use file::{read, to_ron};
 pub use fit::{Excluded, Fitted, fit};
