@@ -211,6 +211,12 @@ pub mod codes {
     // Devices.
     pub const NO_ADAPTER: Code = Code("U0801");
     pub const DEVICE: Code = Code("U0802");
+
+    // Scenes and renderers.
+    pub const SCENE: Code = Code("U0901");
+    pub const MESH: Code = Code("U0902");
+    pub const RENDER: Code = Code("U0903");
+    pub const FOREIGN_INPUT: Code = Code("U0904");
 }
 
 /// A place that a diagnostic speaks about.

@@ -11,7 +11,7 @@ pub mod expr;
 mod lex;
 pub(crate) mod names;
 pub(crate) mod parse;
-mod raw;
+pub(crate) mod raw;
 mod read;
 
 use std::path::Path;
