@@ -41,6 +41,7 @@ pub mod gpu;
 #[cfg(feature = "report")]
 pub mod picture;
 pub mod plan;
+pub mod profile;
 pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;
