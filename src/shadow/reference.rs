@@ -5,6 +5,8 @@
 //! follow a low-discrepancy sequence and are doubled until that changes nothing
 //! that could be seen.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::passes::{Picture, Stage};
@@ -22,7 +24,7 @@ pub struct Samples {
 
 impl Default for Samples {
     fn default() -> Self {
-        Self { first: 64, most: 2048 }
+        Self { first: 256, most: 4096 }
     }
 }
 
@@ -47,7 +49,11 @@ pub fn visibility(stage: &Stage<'_>, picture: &Picture, samples: Samples, done: 
     };
     // A few samples tell whether a silhouette is anywhere near.
     let coarse = rows(&|pixel| match &picture.points[pixel] {
-        Some(point) => sampler.mean(point, pixel, 0, 5).unwrap_or(0.0),
+        Some(point) => {
+            let mut tally = Tally::default();
+            sampler.count(&mut tally, point, pixel, 0..5);
+            tally.mean()
+        }
         None => 1.0,
     });
     let is_near = |pixel: usize| {
@@ -68,6 +74,19 @@ pub fn visibility(stage: &Stage<'_>, picture: &Picture, samples: Samples, done: 
     })
 }
 
+/// Samples taken so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tally {
+    lit: u32,
+    all: u32,
+}
+
+impl Tally {
+    fn mean(self) -> f32 {
+        self.lit as f32 / self.all.max(1) as f32
+    }
+}
+
 struct Sampler<'a> {
     stage: &'a Stage<'a>,
     view: View,
@@ -77,35 +96,27 @@ struct Sampler<'a> {
 impl Sampler<'_> {
     /// Doubles the samples of a pixel until its mean has settled.
     fn settled(&self, point: &SurfacePoint, pixel: usize, samples: Samples) -> f32 {
-        let mut count = samples.first;
-        let Some(mut mean) = self.mean(point, pixel, 0, count) else { return 0.0 };
-        let mut quiet = 0;
+        let mut tally = Tally::default();
+        self.count(&mut tally, point, pixel, 0..samples.first);
+        let (mut count, mut quiet) = (samples.first, 0);
         while quiet < 2 && count < samples.most {
-            let more = self.mean(point, pixel, count, count).unwrap_or(mean);
-            let doubled = (mean + more) / 2.0;
-            quiet = if (doubled - mean).abs() < SETTLED { quiet + 1 } else { 0 };
-            mean = doubled;
+            let before = tally.mean();
+            self.count(&mut tally, point, pixel, count..2 * count);
+            quiet = if (tally.mean() - before).abs() < SETTLED { quiet + 1 } else { 0 };
             count *= 2;
         }
-        mean
+        tally.mean()
     }
 
-    /// The mean over some samples of the sequence. A surface that faces away from the light gets none.
-    fn mean(&self, point: &SurfacePoint, pixel: usize, from: u32, count: u32) -> Option<f32> {
+    /// Adds some samples of the sequence. A surface that faces away from the light gets none of it.
+    fn count(&self, tally: &mut Tally, point: &SurfacePoint, pixel: usize, indices: Range<u32>) {
         if !self.stage.faces_light(point) {
-            return None;
+            return;
         }
-        let (mut lit, mut all) = (0_u32, 0_u32);
-        for index in from..from + count {
-            if let Some(sample) = self.sample(point, pixel, index) {
-                lit += u32::from(self.stage.is_lit(&sample));
-                all += 1;
-            }
+        for sample in indices.filter_map(|index| self.sample(point, pixel, index)) {
+            tally.lit += u32::from(self.stage.is_lit(&sample));
+            tally.all += 1;
         }
-        Some(match all {
-            0 => f32::from(u8::from(self.stage.is_lit(point))),
-            _ => lit as f32 / all as f32,
-        })
     }
 
     /// A place within the pixel, on the surface that its centre shows.
