@@ -40,8 +40,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 
 /// Checks one table and says how that went.
 fn table(out: &mut impl Write, report: &Report, file: &Path) -> Result<Outcome> {
-    let program = match Program::read(file) {
-        Ok(program) => program,
+    let programs = match Program::read_all(file) {
+        Ok(programs) => programs,
         Err(failure) => {
             let outcome = show(out, report, &failure)?;
             if report.format == Format::Human {
@@ -51,24 +51,33 @@ fn table(out: &mut impl Write, report: &Report, file: &Path) -> Result<Outcome> 
             return Ok(outcome);
         }
     };
-    let failure = Failure { source: program.source.clone(), diagnostics: analyse::findings(&program) };
-    let outcome = show(out, report, &failure)?;
+    let mut outcome = Outcome::Clean;
+    for program in &programs {
+        let failure = Failure { source: program.source.clone(), diagnostics: analyse::findings(program) };
+        outcome = outcome.max(show(out, report, &failure)?);
+    }
+    let Some(program) = programs.first() else { return Ok(outcome) };
     if report.format == Format::Human {
         let verdict = match outcome {
             Outcome::Clean => "ok   ",
             Outcome::Findings => "warn ",
             Outcome::Failed => "FAIL ",
         };
+        let examples = plural(programs.iter().map(|program| program.examples.len()).sum(), "example");
+        if program.function.is_some() {
+            let functions = plural(programs.len(), "function");
+            writeln!(out, "{verdict} {}: {functions}, {examples} run", program.source.name)?;
+            return Ok(outcome);
+        }
         let fetched = program.fetched.iter().count();
         let inputs = plural(program.inputs.len(), "input");
         writeln!(
             out,
-            "{verdict} {}: {}, {inputs}{}, {}, {} run",
+            "{verdict} {}: {}, {inputs}{}, {}, {examples} run",
             program.source.name,
             plural(program.rows.len(), "case"),
             if fetched > 0 { format!(" ({fetched} fetched)") } else { String::new() },
             plural(program.states.count(), "state"),
-            plural(program.examples.len(), "example"),
         )?;
     }
     Ok(outcome)

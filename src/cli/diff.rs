@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut programs = Vec::new();
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
-            programs.push(Program::read(&file)?);
+            programs.extend(Program::read_all(&file)?);
         }
     }
     let gpu = Gpu::open(&arguments.adapter)?;
@@ -84,7 +84,8 @@ fn progress(program: &Program) -> ProgressBar {
 }
 
 fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Result<()> {
-    writeln!(out, "{}: {} states, {} points", program.source.name, report.states, report.points)?;
+    let function = program.function.as_ref().map_or(String::new(), |f| format!(", function {}", f.name));
+    writeln!(out, "{}{function}: {} states, {} points", program.source.name, report.states, report.points)?;
     writeln!(out, "  plan           entry   source   bit-equal  admissible   offending   worst difference")?;
     for run in &report.runs {
         writeln!(
@@ -100,9 +101,10 @@ fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Resu
         )?;
         for offender in &run.offenders {
             writeln!(out, "    {}", offender.reason)?;
+            let function = program.function.as_ref().map_or(String::new(), |f| format!(" --function {}", f.name));
             writeln!(
                 out,
-                "    to see what should happen: umbrage explain {} --at {}",
+                "    to see what should happen: umbrage explain {}{function} --at {}",
                 program.source.name, offender.inputs
             )?;
         }

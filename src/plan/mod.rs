@@ -130,6 +130,9 @@ impl<'p> Plan<'p> {
     /// When the shape does not suit the program; the message says why.
     pub fn new(program: &'p Program, shape: Shape) -> Result<Self, Failure> {
         let built = match shape {
+            Shape::Switch(_) if program.function.is_some() && program.states.count() == 1 => {
+                Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
+            }
             Shape::Ladder => build::ladder(program),
             Shape::Switch(_) => build::switch(program, shape),
         };
