@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::report::{Format, Report};
-use super::{Outcome, Result, parse_shape, parse_target};
+use super::{Outcome, Result, levels, parse_shape, parse_target};
+use crate::analyse::Levels;
 use crate::build::{self, Built, Options};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::emit::Target;
@@ -27,6 +28,8 @@ pub(super) struct Arguments {
     /// Languages: wgsl, glsl450, glsl330, glsl_es300, rust, spirv, hlsl, msl [default: all]
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
+    #[command(flatten)]
+    levels: levels::Arguments,
 }
 
 /// Builds every table. Nothing is written unless all of them are right.
@@ -38,12 +41,19 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     if !arguments.target.is_empty() {
         options.targets.clone_from(&arguments.target);
     }
+    let levels = arguments.levels.levels();
     let mut done: Vec<(Vec<Program>, Built)> = Vec::new();
     let mut outcome = Outcome::Clean;
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
-            match one(&file, &options, report, &done) {
-                Ok((built, found)) => {
+            // An exhibit is built only if it was named.
+            let result = Table::read(&file).and_then(|table| match path.is_dir() && table.exhibit.is_some() {
+                true => Ok(None),
+                false => one(&table, &options, &levels, report, &done).map(Some),
+            });
+            match result {
+                Ok(None) => {}
+                Ok(Some((built, found))) => {
                     outcome = outcome.max(found);
                     done.push(built);
                 }
@@ -66,14 +76,13 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 fn one(
-    file: &std::path::Path,
+    table: &Table,
     options: &Options,
+    levels: &Levels,
     report: &Report,
     done: &[(Vec<Program>, Built)],
 ) -> std::result::Result<((Vec<Program>, Built), Outcome), Failure> {
-    let table = Table::read(file)?;
-    let programs = Program::check_all(&table)?;
-    let (name, source) = (table.name.value, table.source);
+    let (name, source) = (table.name.value.clone(), table.source.clone());
     if let Some((other, _)) = done.iter().find(|(_, built)| built.table == name) {
         let other = other.first().map_or("", |program| program.source.name.as_str());
         let message = format!("`{other}` and this file both define the table `{name}`");
@@ -81,8 +90,10 @@ fn one(
             Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
         return Err(Failure::new(source, error));
     }
+    let programs = Program::check_all(table)?;
     // Notes are for `check`: here they would hide what was built.
-    let findings: Vec<Diagnostic> = programs.iter().flat_map(crate::analyse::problems).collect();
+    let findings: Vec<Diagnostic> =
+        programs.iter().flat_map(|program| crate::analyse::problems(program, levels)).collect();
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Failure { source, diagnostics: findings });
     }

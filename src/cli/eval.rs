@@ -9,7 +9,7 @@ use super::columns::{self, Columns, Points, Problems};
 use super::output::Sink;
 use super::report::Report;
 use super::{Outcome, PrecisionArgument, Result, parse_shape};
-use crate::diag::{Diagnostic, Failure, Source, Span, codes};
+use crate::diag::{Diagnostic, Failure, Span, codes};
 #[cfg(feature = "gpu")]
 use crate::emit::harness::Entry;
 use crate::eval::{self, Batch, Interpreter, NeedsFetch};
@@ -31,7 +31,7 @@ pub(super) struct Arguments {
     /// The function of a table of functions
     #[arg(long, value_name = "NAME")]
     function: Option<String>,
-    /// Rows of inputs: CSV with a header, or *.json with an array of objects; `-` is standard input
+    /// Rows of inputs: CSV with a header, *.json with an array of objects, or *.bin, a capture; `-` is standard input
     #[arg(long, default_value = "-", value_name = "FILE")]
     input: PathBuf,
     /// Where the answers go, one per row: CSV, or *.json; `-` is standard output
@@ -102,9 +102,10 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         report.failure(&Failure::bare("", note));
     }
     let precision = arguments.precision.into();
-    let source = columns::read(&arguments.input)?;
+    let rows = columns::read(&program, &arguments.input)?;
+    let source = &rows.source;
     let fail = |diagnostics| Failure { source: source.clone(), diagnostics };
-    let mut columns = Columns::open(&program, &source).map_err(fail)?;
+    let mut columns = Columns::open(&program, &rows).map_err(fail)?;
     let json = columns::has_extension(&arguments.output, "json");
     let sink = Sink::create(&arguments.output)?;
     let mut writer = Writer::start(&program, precision, json, sink)?;
@@ -114,10 +115,11 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         // Rows that cannot be read have no answer; the others are judged nevertheless, to report all that is wrong.
         let answers = evaluate(&program, &points, &executor, precision)?;
         if program.function.is_some() {
-            outside(&program, &points, &source, &mut problems);
+            outside(&program, &points, |place| columns.locate(source, place), &mut problems);
         }
         for (index, input) in &answers.needed {
-            problems.push(|| needs(&program, &source, points.point(*index), points.place(*index), *input));
+            let place = columns.locate(source, points.place(*index));
+            problems.push(|| needs(&program, points.point(*index), place, *input));
         }
         if problems.is_empty() {
             writer.write(&answers)?;
@@ -131,7 +133,12 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 /// Notes rows at which a function is not meant to be used.
-fn outside(program: &Program, points: &Points, source: &Source, problems: &mut Problems) {
+fn outside(
+    program: &Program,
+    points: &Points,
+    locate: impl Fn(Span) -> (String, Option<Span>),
+    problems: &mut Problems,
+) {
     if program.assumptions.is_empty() {
         return;
     }
@@ -142,17 +149,19 @@ fn outside(program: &Program, points: &Points, source: &Source, problems: &mut P
         }
         for condition in &program.assumptions {
             if interpreter.holds(condition.condition) == Ok(false) {
-                let place = points.place(index);
+                let (row, place) = locate(points.place(index));
                 problems.push(|| {
                     let printer = Printer { pool: &program.pool, inputs: &program.inputs };
                     let message = format!(
-                        "line {}: outside of the domain of `{}`: {} does not hold",
-                        source.line(place.start),
+                        "{row}: outside of the domain of `{}`: {} does not hold",
                         program.function.as_ref().map_or("", |f| f.name.as_str()),
                         printer.cond(condition.condition)
                     );
-                    let error = Diagnostic::error(codes::OUTSIDE_DOMAIN, message)
-                        .at(columns::first_line(&source.text, place), "in this row");
+                    let error = Diagnostic::error(codes::OUTSIDE_DOMAIN, message);
+                    let error = match place {
+                        Some(place) => error.at(place, "in this row"),
+                        None => error,
+                    };
                     match condition.doc.is_empty() {
                         true => error.help("leave out the row, or mend its values"),
                         false => error.help(condition.doc.clone()),
@@ -164,14 +173,17 @@ fn outside(program: &Program, points: &Points, source: &Source, problems: &mut P
 }
 
 /// A row that leaves out what it needs.
-fn needs(program: &Program, source: &Source, point: &[Option<Value>], place: Span, input: InputId) -> Diagnostic {
+fn needs(program: &Program, point: &[Option<Value>], place: (String, Option<Span>), input: InputId) -> Diagnostic {
     let input = &program.inputs[input.index()];
     let row = explain(program, point, Precision::F32).err().and_then(|needed| needed.row);
     let who = row.map_or("this row".to_owned(), |row| format!("case {}", program.rows[row].id));
-    let message = format!("line {}: {who} needs `{}`, which is absent", source.line(place.start), input.name);
-    Diagnostic::error(codes::NEEDS_FETCH, message)
-        .at(columns::first_line(&source.text, place), format!("no value of `{}`", input.name))
-        .help(format!("give `{}` a value in this row: {}", input.name, input.doc))
+    let (place, span) = place;
+    let mut error =
+        Diagnostic::error(codes::NEEDS_FETCH, format!("{place}: {who} needs `{}`, which is absent", input.name));
+    if let Some(span) = span {
+        error = error.at(span, format!("no value of `{}`", input.name));
+    }
+    error.help(format!("give `{}` a value in this row: {}", input.name, input.doc))
 }
 
 /// Answers some points.

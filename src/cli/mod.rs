@@ -14,6 +14,7 @@ mod diff;
 mod eval;
 mod explain;
 mod json_input;
+mod levels;
 mod output;
 mod report;
 

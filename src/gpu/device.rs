@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
 
 use crate::diag::{Diagnostic, Failure, codes};
 
@@ -59,8 +59,8 @@ impl AdapterChoice {
 /// An open device.
 #[derive(Debug)]
 pub struct Gpu {
-    pub(super) device: wgpu::Device,
-    pub(super) queue: wgpu::Queue,
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
     info: wgpu::AdapterInfo,
     /// The first thing that went wrong on the device since the last look.
     trouble: Arc<Mutex<Option<String>>>,
@@ -88,9 +88,12 @@ impl Gpu {
         let limits = adapter.limits();
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("umbrage"),
+            // Timestamps are a luxury: what measures time can do without.
+            required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
             required_limits: wgpu::Limits {
                 max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
                 max_buffer_size: limits.max_buffer_size,
+                max_texture_dimension_2d: limits.max_texture_dimension_2d,
                 ..wgpu::Limits::downlevel_defaults()
             },
             ..wgpu::DeviceDescriptor::default()
@@ -121,8 +124,87 @@ impl Gpu {
         describe(&self.info)
     }
 
+    /// Waits for the device, then shows what a mappable buffer holds.
+    ///
+    /// # Errors
+    /// When the device was lost, ran out of memory, or found fault with what was submitted.
+    pub(crate) fn read_back<R>(&self, buffer: &wgpu::Buffer, read: impl FnOnce(&[u8]) -> R) -> Result<R, Failure> {
+        let (sender, receiver) = mpsc::channel();
+        buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+            // The receiver only goes away after an error that was reported already.
+            let _ = sender.send(result);
+        });
+        let failed = |what: &dyn fmt::Display| {
+            let message = format!("results could not be read back: {what}");
+            let help = "try fewer rows or pixels, or another adapter (`--adapter`)";
+            Failure::bare("", Diagnostic::error(codes::DEVICE, message).help(help))
+        };
+        self.wait()?;
+        receiver.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+        let result = {
+            let view = buffer.slice(..).get_mapped_range().map_err(|error| failed(&error))?;
+            read(&view)
+        };
+        buffer.unmap();
+        Ok(result)
+    }
+
+    /// Copies a buffer back and shows what is in it.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub(crate) fn read_buffer<R>(
+        &self,
+        source: &wgpu::Buffer,
+        size: u64,
+        read: impl FnOnce(&[u8]) -> R,
+    ) -> Result<R, Failure> {
+        let back = self.mappable(size);
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(source, 0, &back, 0, size);
+        self.queue.submit([encoder.finish()]);
+        self.read_back(&back, read)
+    }
+
+    /// Copies a texture back: its rows, and the bytes from one to the next.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub(crate) fn read_texture(&self, source: &wgpu::Texture, texel: u32) -> Result<(Vec<u8>, usize), Failure> {
+        let pitch = (source.width() * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let back = self.mappable(u64::from(pitch) * u64::from(source.height()));
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(pitch), rows_per_image: None };
+        let target = wgpu::TexelCopyBufferInfo { buffer: &back, layout };
+        encoder.copy_texture_to_buffer(source.as_image_copy(), target, source.size());
+        self.queue.submit([encoder.finish()]);
+        Ok((self.read_back(&back, <[u8]>::to_vec)?, pitch as usize))
+    }
+
+    fn mappable(&self, size: u64) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("back"),
+            size,
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
+    /// Waits until everything submitted is done.
+    ///
+    /// # Errors
+    /// With what went wrong on the device meanwhile.
+    pub(crate) fn wait(&self) -> Result<(), Failure> {
+        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.check()?;
+        waited.map(|_| ()).map_err(|error| {
+            let message = format!("the device `{}` does not finish: {error}", self.info.name);
+            Failure::bare("", Diagnostic::error(codes::DEVICE, message).help("try another adapter (`--adapter`)"))
+        })
+    }
+
     /// Fails with what went wrong on the device, if anything did.
-    pub(super) fn check(&self) -> Result<(), Failure> {
+    pub(crate) fn check(&self) -> Result<(), Failure> {
         match self.trouble.lock().unwrap_or_else(PoisonError::into_inner).take() {
             None => Ok(()),
             Some(message) => {

@@ -1,7 +1,6 @@
 //! A table as a compute pipeline.
 
 use std::borrow::Cow;
-use std::sync::mpsc;
 
 use wgpu::util::DeviceExt;
 
@@ -190,21 +189,7 @@ impl<'a, 'p> Kernel<'a, 'p> {
         encoder.copy_buffer_to_buffer(&out, 0, &back, 0, size);
         gpu.queue.submit([encoder.finish()]);
 
-        let (sender, receiver) = mpsc::channel();
-        back.slice(..).map_async(wgpu::MapMode::Read, move |result| {
-            // The receiver only goes away after an error that was reported already.
-            let _ = sender.send(result);
-        });
-        let failed = |what: &str| {
-            let message = format!("results could not be read back: {what}");
-            Failure::bare("", Diagnostic::error(codes::DEVICE, message).help("try fewer rows, or another adapter"))
-        };
-        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error.to_string()))?;
-        gpu.check()?;
-        receiver.recv().map_err(|e| failed(&e.to_string()))?.map_err(|e| failed(&e.to_string()))?;
-        let view = back.slice(..).get_mapped_range().map_err(|e| failed(&e.to_string()))?;
-        self.read(bytemuck::cast_slice(&view), outputs);
-        Ok(())
+        gpu.read_back(&back, |bytes| self.read(bytemuck::cast_slice(bytes), outputs))
     }
 
     fn plain_inputs(&self) -> impl Iterator<Item = (InputId, &Domain)> {

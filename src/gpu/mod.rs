@@ -5,6 +5,7 @@
 
 mod device;
 mod kernel;
+pub mod timing;
 
 pub use device::{AdapterChoice, Gpu};
 pub use kernel::{Kernel, Language, Outputs};

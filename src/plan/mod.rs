@@ -10,6 +10,7 @@ mod key;
 mod knowledge;
 pub mod prove;
 mod rounding;
+mod weights;
 
 use std::fmt;
 
@@ -18,6 +19,7 @@ use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
 pub use key::KeyLayout;
 pub use prove::{Counterexample, Proof};
+pub use weights::Weights;
 
 /// The code shapes that can be asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -60,6 +62,24 @@ impl Shape {
 impl fmt::Display for Shape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+/// What plan to make.
+#[derive(Debug, Clone, Copy)]
+pub struct PlanOptions<'w> {
+    /// The code shape.
+    pub shape: Shape,
+    /// How often each state occurs; without, every state counts alike.
+    pub weights: Option<&'w Weights>,
+    /// Whether the plan may do anything where the table's assumptions do not hold.
+    pub assume: bool,
+}
+
+impl From<Shape> for PlanOptions<'_> {
+    /// The shape, right everywhere, best where every state occurs alike.
+    fn from(shape: Shape) -> Self {
+        Self { shape, weights: None, assume: false }
     }
 }
 
@@ -128,7 +148,9 @@ impl<'p> Plan<'p> {
     ///
     /// # Errors
     /// When the shape does not suit the program; the message says why.
-    pub fn new(program: &'p Program, shape: Shape) -> Result<Self, Failure> {
+    pub fn new<'w>(program: &'p Program, options: impl Into<PlanOptions<'w>>) -> Result<Self, Failure> {
+        let options = options.into();
+        let shape = options.shape;
         let built = match shape {
             Shape::Switch(_) if program.function.is_some() && program.states.count() == 1 => {
                 Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
@@ -147,8 +169,8 @@ impl<'p> Plan<'p> {
     /// # Errors
     /// When the shape does not suit the program, or, which would be a bug of
     /// the planner, when the plan is not equal to it.
-    pub fn proved(program: &'p Program, shape: Shape) -> Result<Proved<'p>, Failure> {
-        Self::new(program, shape)?.prove()
+    pub fn proved<'w>(program: &'p Program, options: impl Into<PlanOptions<'w>>) -> Result<Proved<'p>, Failure> {
+        Self::new(program, options)?.prove()
     }
 
     /// Proves the plan.

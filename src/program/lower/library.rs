@@ -136,6 +136,7 @@ impl<'t> Lowering<'t> {
                     section: function.section.clone(),
                     doc: function.doc.clone(),
                     errata: function.errata.clone(),
+                    allow: Vec::new(),
                 });
                 for example in &function.examples {
                     examples.push(self.example(0, example)?);
@@ -167,6 +168,7 @@ impl<'t> Lowering<'t> {
                         section: case.section.clone(),
                         doc: case.doc.clone(),
                         errata: case.errata.clone(),
+                        allow: case.allow.clone(),
                     });
                 }
                 for (row, case) in cases.iter().enumerate() {
@@ -216,6 +218,7 @@ impl<'t> Lowering<'t> {
             default,
             output: self.output,
             assumptions,
+            draw: Vec::new(),
             symmetries: Vec::new(),
             examples,
             function: Some(Function {
@@ -225,6 +228,9 @@ impl<'t> Lowering<'t> {
                 limits,
                 accuracy,
             }),
+            continuity: Vec::new(),
+            allow: table.allow.clone(),
+            exhibit: table.exhibit.clone(),
         })
     }
 

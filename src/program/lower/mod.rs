@@ -2,6 +2,7 @@
 
 mod calls;
 mod declare;
+mod draw;
 mod examples;
 mod functions;
 mod images;
@@ -164,7 +165,9 @@ impl<'t> Lowering<'t> {
             Some(Assumption { name, condition, doc, span: assumption.condition.span })
         });
         let assumptions = assumptions.collect();
+        let draw = self.draw(errors);
         let symmetries = table.symmetries.iter().filter_map(|s| keep(self.symmetry(s), errors)).collect();
+        let continuity = table.continuity.iter().filter_map(|c| keep(self.continuity(c), errors)).collect();
         let mut examples = Vec::new();
         for (row, case) in table.cases.iter().enumerate() {
             for example in &case.examples {
@@ -188,9 +191,13 @@ impl<'t> Lowering<'t> {
             default: default?,
             output: self.output,
             assumptions,
+            draw,
             symmetries,
             examples,
             function: None,
+            continuity,
+            allow: table.allow.clone(),
+            exhibit: table.exhibit.clone(),
         })
     }
 }

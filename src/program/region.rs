@@ -16,16 +16,16 @@ const MAX_CONSTRAINTS: usize = 512;
 
 /// Which sign a form has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sign {
+pub(crate) enum Sign {
     Positive,
     Zero,
     Negative,
 }
 
 impl Sign {
-    pub(super) const ALL: [Sign; 3] = [Sign::Positive, Sign::Zero, Sign::Negative];
+    pub(crate) const ALL: [Sign; 3] = [Sign::Positive, Sign::Zero, Sign::Negative];
 
-    pub(super) fn of(number: Rational) -> Self {
+    pub(crate) fn of(number: Rational) -> Self {
         if number.is_zero() {
             Sign::Zero
         } else if number.is_positive() {
@@ -35,7 +35,7 @@ impl Sign {
         }
     }
 
-    pub(super) fn flip(self) -> Self {
+    pub(crate) fn flip(self) -> Self {
         match self {
             Sign::Positive => Sign::Negative,
             Sign::Zero => Sign::Zero,
@@ -51,7 +51,7 @@ struct Constraint {
 }
 
 /// Whether the forms can have these signs at one point of the program's domain.
-pub(super) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> bool {
+pub(crate) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> bool {
     feasible(program, signs).unwrap_or(true)
 }
 

@@ -28,16 +28,16 @@ const MAX_PATHS: usize = 1 << 14;
 
 /// What the inputs mean: themselves, or their images under a symmetry.
 #[derive(Clone, Copy, Default)]
-pub(super) struct View<'s> {
+pub(crate) struct View<'s> {
     /// Whose images the inputs stand for.
-    pub(super) symmetry: Option<&'s Symmetry>,
+    pub(crate) symmetry: Option<&'s Symmetry>,
     /// What the result stands for, in the result map of a symmetry.
-    pub(super) result: Option<ExprId>,
+    pub(crate) result: Option<ExprId>,
 }
 
 impl View<'_> {
     /// The inputs themselves.
-    pub(super) const PLAIN: Self = View { symmetry: None, result: None };
+    pub(crate) const PLAIN: Self = View { symmetry: None, result: None };
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +61,7 @@ struct Choice {
 }
 
 /// Runs a program along paths.
-pub(super) struct Machine<'p> {
+pub(crate) struct Machine<'p> {
     program: &'p Program,
     pool: Pool,
     normaliser: Normaliser,
@@ -88,7 +88,7 @@ enum Difference {
 }
 
 impl<'p> Machine<'p> {
-    pub(super) fn new(program: &'p Program) -> Self {
+    pub(crate) fn new(program: &'p Program) -> Self {
         Self {
             program,
             pool: program.pool.clone(),
@@ -105,7 +105,7 @@ impl<'p> Machine<'p> {
 
     /// Follows every path of a state, until told to stop. Returns whether it was.
     /// A state with too many paths is given up; [`Self::gave_up`] tells.
-    pub(super) fn any_path(&mut self, state: usize, mut path: impl FnMut(&mut Self) -> ControlFlow<()>) -> bool {
+    pub(crate) fn any_path(&mut self, state: usize, mut path: impl FnMut(&mut Self) -> ControlFlow<()>) -> bool {
         self.program.states.write(state, &mut self.levels);
         self.choices.clear();
         self.gave_up = false;
@@ -122,7 +122,7 @@ impl<'p> Machine<'p> {
     }
 
     /// Whether the last state had more paths than were followed.
-    pub(super) fn gave_up(&self) -> bool {
+    pub(crate) fn gave_up(&self) -> bool {
         self.gave_up
     }
 
@@ -176,7 +176,7 @@ impl<'p> Machine<'p> {
     }
 
     /// Whether a condition holds on this path.
-    pub(super) fn holds(&mut self, condition: CondId, view: View<'_>) -> bool {
+    pub(crate) fn holds(&mut self, condition: CondId, view: View<'_>) -> bool {
         // Resolving makes expressions but no conditions, so the program has them all.
         let program = self.program;
         match program.pool.cond(condition) {
@@ -276,7 +276,7 @@ impl<'p> Machine<'p> {
     }
 
     /// An expression with selections decided and images put in.
-    pub(super) fn resolve(&mut self, expr: ExprId, view: View<'_>) -> ExprId {
+    pub(crate) fn resolve(&mut self, expr: ExprId, view: View<'_>) -> ExprId {
         if view.symmetry.is_none() && view.result.is_none() && !self.pool.expr_facts(expr).selects {
             return expr;
         }
@@ -376,7 +376,7 @@ impl<'p> Machine<'p> {
     }
 
     /// Whether two resolved results are equal on this path, over the reals.
-    pub(super) fn equal(&mut self, a: &[ExprId], b: &[ExprId]) -> bool {
+    pub(crate) fn equal(&mut self, a: &[ExprId], b: &[ExprId]) -> bool {
         a.iter().zip(b).all(|(a, b)| self.equal_numbers(*a, *b))
     }
 
@@ -395,13 +395,13 @@ impl<'p> Machine<'p> {
     }
 
     /// Whether the guards of two rows hold on this path.
-    pub(super) fn both_hold(&mut self, first: usize, second: usize) -> bool {
+    pub(crate) fn both_hold(&mut self, first: usize, second: usize) -> bool {
         let rows = &self.program.rows;
         self.holds(rows[first].guard, View::PLAIN) && self.holds(rows[second].guard, View::PLAIN)
     }
 
     /// The value of a row on this path, its guard aside: the first line that applies, else the default.
-    pub(super) fn row_values(&mut self, row: usize, view: View<'_>) -> Vec<ExprId> {
+    pub(crate) fn row_values(&mut self, row: usize, view: View<'_>) -> Vec<ExprId> {
         let program = self.program;
         let line = program.rows[row].lines.iter().find(|line| self.holds(line.condition, view));
         let values = line.map_or(&program.default, |line| &line.values);
@@ -409,7 +409,7 @@ impl<'p> Machine<'p> {
     }
 
     /// The row taken and the result on this path.
-    pub(super) fn run(&mut self, view: View<'_>) -> (Option<usize>, Vec<ExprId>) {
+    pub(crate) fn run(&mut self, view: View<'_>) -> (Option<usize>, Vec<ExprId>) {
         let program = self.program;
         match program.rows.iter().position(|row| self.holds(row.guard, view)) {
             Some(row) => (Some(row), self.row_values(row, view)),
@@ -418,7 +418,7 @@ impl<'p> Machine<'p> {
     }
 
     /// The path in table notation: the state, then what was asked.
-    pub(super) fn describe(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         let inputs = &self.program.inputs;
         let level = |input: InputId, level: u8| {
             let input = &inputs[input.index()];
@@ -452,7 +452,7 @@ impl<'p> Machine<'p> {
     }
 
     /// Whether the path is sure to be taken by some inputs: everything asked was linear in them.
-    pub(super) fn certain(&self) -> bool {
+    pub(crate) fn certain(&self) -> bool {
         self.choices.iter().all(|choice| match choice.question {
             Question::Level(_) => true,
             Question::Sign(form) => self.forms[form].terms.keys().all(|term| matches!(term, Term::Input(_))),
