@@ -208,6 +208,13 @@ pub mod codes {
     pub const NOT_APPLICABLE: Code = Code("U0602");
     pub const INVALID_OUTPUT: Code = Code("U0603");
 
+    // Profiles and tuning.
+    pub const BAD_PROFILE: Code = Code("U0611");
+    pub const OTHER_PROFILE: Code = Code("U0612");
+    pub const EMPTY_PROFILE: Code = Code("U0613");
+    pub const OLD_PROFILE: Code = Code("U0614");
+    pub const EXCLUDED_STATE: Code = Code("U0615");
+
     // Values given to a table.
     pub const BAD_COLUMN: Code = Code("U0701");
     pub const BAD_VALUE: Code = Code("U0702");

@@ -206,6 +206,8 @@ pub struct Row {
 pub struct Line {
     /// When it applies.
     pub condition: CondId,
+    /// Where the condition stands; `None` if it has none.
+    pub condition_span: Option<Span>,
     /// The result, one expression per component.
     pub values: Vec<ExprId>,
     /// Where the value stands.

@@ -20,6 +20,7 @@ use crate::table::{self, Case, CaseBody};
 /// A line of a row, its value not yet tied to the output.
 pub(super) struct LoweredLine {
     pub(super) condition: CondId,
+    pub(super) condition_span: Option<Span>,
     pub(super) value: Term,
     pub(super) span: Span,
 }
@@ -37,7 +38,9 @@ impl<'t> Lowering<'t> {
                 Some(map) => self.apply_result(map, line.value, &env)?,
                 None => line.value,
             };
-            Ok(Line { condition: line.condition, values: self.result(value, line.span)?, span: line.span })
+            let values = self.result(value, line.span)?;
+            let (condition, condition_span) = (line.condition, line.condition_span);
+            Ok(Line { condition, condition_span, values, span: line.span })
         });
         let lines = lines.collect::<Result<Vec<_>>>()?;
         Ok(Row {
@@ -117,7 +120,8 @@ impl<'t> Lowering<'t> {
                 None => self.pool.always(true),
             };
             let value = self.term(&line.value, env, expected)?;
-            Ok(LoweredLine { condition, value, span: line.value.span })
+            let condition_span = line.condition.as_ref().map(|condition| condition.span);
+            Ok(LoweredLine { condition, condition_span, value, span: line.value.span })
         });
         lines.collect()
     }
