@@ -37,7 +37,9 @@ pub fn component_names(output: &Output) -> Vec<&str> {
 pub fn words(output: &Output, values: &[f64], precision: Precision) -> Vec<String> {
     let name = |levels: &[String], value: f64| levels.get(value as usize).cloned().unwrap_or_else(|| "?".to_owned());
     match (output, values) {
-        (Output::Number | Output::Vector(_) | Output::Record(_), _) => values.iter().map(|v| precision.show(*v)).collect(),
+        (Output::Number | Output::Vector(_) | Output::Record(_), _) => {
+            values.iter().map(|v| precision.show(*v)).collect()
+        }
         (Output::Enumeration(levels), _) => values.iter().map(|v| name(&levels.names, *v)).collect(),
         (Output::List { levels, .. }, [length, items @ ..]) => {
             items.iter().take(*length as usize).map(|v| name(&levels.names, *v)).collect()

@@ -16,7 +16,8 @@ pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
     // Names are gone from a program, but its source is that of a well-formed table.
     // The names of a table of functions are for all of them, so one cannot tell.
     if program.function.is_none()
-        && let Ok(table) = Table::parse(program.source.clone()) {
+        && let Ok(table) = Table::parse(program.source.clone())
+    {
         found.extend(names(&table));
     }
     found

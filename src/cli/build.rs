@@ -120,14 +120,14 @@ fn summary(
             let examples: usize = programs.iter().map(|program| program.examples.len()).sum();
             writeln!(out, "{}: {} functions, {examples} examples hold", program.source.name, programs.len())?;
         } else {
-        let (cases, states) = (program.rows.len(), program.states.count());
-        writeln!(
-            out,
-            "{}: {cases} cases, {} inputs, {states} states, {} examples hold",
-            program.source.name,
-            program.inputs.len(),
-            program.examples.len()
-        )?;
+            let (cases, states) = (program.rows.len(), program.states.count());
+            writeln!(
+                out,
+                "{}: {cases} cases, {} inputs, {states} states, {} examples hold",
+                program.source.name,
+                program.inputs.len(),
+                program.examples.len()
+            )?;
         }
         for (shape, proof) in &built.plans {
             writeln!(out, "  {:<14} proved {proof}", shape.name())?;

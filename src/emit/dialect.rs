@@ -82,11 +82,17 @@ pub(super) trait Dialect {
             ("sign_c", &format!("1.0 - 2.0 * (next - 2.0 * {})", self.unary(UnaryOp::Floor, "(next * 0.5)"))),
         ];
         let x = [("x".to_owned(), Type::Float)];
-        let mut out = format!("// Sine and cosine, as accurate on every device; the language promises too little for its own.\n{}\n", self.function(&name, &x, &Type::Pair, prefix));
+        let mut out = format!(
+            "// Sine and cosine, as accurate on every device; the language promises too little for its own.\n{}\n",
+            self.function(&name, &x, &Type::Pair, prefix)
+        );
         for (name, value) in lines {
             out += &format!("    {}\n", self.local(&Type::Float, name, value, prefix));
         }
-        out + &format!("    return {};\n}}", self.make_pair("(s * even + c * odd) * sign_s", "(c * even + s * odd) * sign_c"))
+        out + &format!(
+            "    return {};\n}}",
+            self.make_pair("(s * even + c * odd) * sign_s", "(c * even + s * odd) * sign_c")
+        )
     }
     /// A pair of numbers.
     fn make_pair(&self, first: &str, second: &str) -> String {

@@ -40,7 +40,12 @@ fn bound(program: &Program, pool: &Pool, expr: ExprId, known: &mut HashMap<ExprI
     found
 }
 
-fn operation(program: &Program, pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, Option<Bound>>) -> Option<Bound> {
+fn operation(
+    program: &Program,
+    pool: &Pool,
+    expr: ExprId,
+    known: &mut HashMap<ExprId, Option<Bound>>,
+) -> Option<Bound> {
     let mut of = |expr| bound(program, pool, expr, known);
     match pool.node(expr) {
         Node::Const(number) => {

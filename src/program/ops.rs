@@ -231,7 +231,8 @@ mod tests {
         let (mut absolute, mut relative) = (0.0_f64, 0.0_f64);
         for step in -200_000..=200_000 {
             let x = step as f32 * 5e-4;
-            for (op, exact) in [(UnaryOp::PortableSin, libm::sin(x.into())), (UnaryOp::PortableCos, libm::cos(x.into()))]
+            for (op, exact) in
+                [(UnaryOp::PortableSin, libm::sin(x.into())), (UnaryOp::PortableCos, libm::cos(x.into()))]
             {
                 absolute = absolute.max((f64::from(f32::unary(op, x)) - exact).abs());
             }

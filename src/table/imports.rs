@@ -44,8 +44,10 @@ fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
         }
         let text = read_text(&path, MAX_BYTES).map_err(|failure| {
             let reason = failure.diagnostics.first().map_or(String::new(), |d| d.message.clone());
-            fail(error(format!("the imported table `{name}` {reason}"), "imported here")
-                .help("paths are relative to the file that imports"))
+            fail(
+                error(format!("the imported table `{name}` {reason}"), "imported here")
+                    .help("paths are relative to the file that imports"),
+            )
         })?;
         let imported = Source::new(&*name, text);
         let read = read::table(&imported).map_err(|diagnostics| Failure { source: imported, diagnostics })?;

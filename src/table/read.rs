@@ -319,7 +319,8 @@ impl<'a> Reader<'a> {
                 },
             });
         };
-        let odd = [ron.hit_policy, ron.output, ron.default, ron.cases.as_ref().and_then(|cases| cases.first().copied())];
+        let odd =
+            [ron.hit_policy, ron.output, ron.default, ron.cases.as_ref().and_then(|cases| cases.first().copied())];
         if let Some(odd) = odd.into_iter().flatten().next() {
             return Err(Diagnostic::error(codes::FUNCTION_SHAPE, "a table has cases or functions, not both")
                 .at(self.span(odd), "belongs to a table of cases")

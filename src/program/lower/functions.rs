@@ -89,9 +89,10 @@ impl<'t> Lowering<'t> {
             let plural = if count == 1 { "" } else { "s" };
             let message = format!("`{name}` takes {count} argument{plural}, not {}", arguments.len());
             let listed = parameters.iter().map(|p| p.value.as_str()).collect::<Vec<_>>().join(", ");
-            return Err(Diagnostic::error(codes::CALL, message)
-                .at(span, "wrong number of arguments")
-                .help(format!("`{name}({listed})`, or only some by name, as in `{name}({} = ...)`", parameters[0].value)));
+            return Err(Diagnostic::error(codes::CALL, message).at(span, "wrong number of arguments").help(format!(
+                "`{name}({listed})`, or only some by name, as in `{name}({} = ...)`",
+                parameters[0].value
+            )));
         }
         let terms = arguments.iter().map(|a| self.term(a, env, Expected::Anything)).collect::<Result<Vec<_>>>()?;
         let spans: Vec<Span> = arguments.iter().map(|a| a.span).collect();
@@ -110,8 +111,9 @@ impl<'t> Lowering<'t> {
         let function = &callee.0.name().value;
         for (index, (name, _)) in given.iter().enumerate() {
             if !parameters.iter().any(|p| p.value == name.value) {
-                let error = Diagnostic::error(codes::PARAMETER, format!("`{function}` has no parameter `{}`", name.value))
-                    .at(name.span, "unknown parameter");
+                let error =
+                    Diagnostic::error(codes::PARAMETER, format!("`{function}` has no parameter `{}`", name.value))
+                        .at(name.span, "unknown parameter");
                 return Err(match table::nearest(&name.value, parameters.iter().map(|p| p.value.as_str())) {
                     Some(close) => error.help(format!("did you mean `{close}`?")),
                     None => error.help(format!(
@@ -181,7 +183,9 @@ impl<'t> Lowering<'t> {
                 let last = lines.next().map(|line| line.value);
                 last.map_or_else(
                     || Err(type_error(span, "nothing", "this function returns nothing")),
-                    |last| lines.try_fold(last, |other, line| self.choose(line.condition, line.value, other, line.span)),
+                    |last| {
+                        lines.try_fold(last, |other, line| self.choose(line.condition, line.value, other, line.span))
+                    },
                 )
             }),
             Callee::Function(function) => self.function_term(function, &inner),
@@ -354,7 +358,11 @@ impl<'t> Lowering<'t> {
             ExprKind::Name(name) => {
                 let list = self.constant_list(&Spanned::new(coefficients.span, name.clone()), env)?;
                 if list.iter().any(|item| item.len() > 1) {
-                    return Err(type_error(coefficients.span, "a list of several numbers each", "expected coefficients"));
+                    return Err(type_error(
+                        coefficients.span,
+                        "a list of several numbers each",
+                        "expected coefficients",
+                    ));
                 }
                 Ok(list.iter().flatten().map(|number| self.pool.number(*number)).collect())
             }
@@ -440,7 +448,9 @@ impl<'t> Lowering<'t> {
             let error = Diagnostic::error(codes::UNKNOWN_NAME, message).at(list.span, "expected a list of `constants`");
             return Err(match table::nearest(&list.value, lists()) {
                 Some(close) => error.help(format!("did you mean `{close}`?")),
-                None if lists().next().is_none() => error.help("declare one: constants: {\"nodes\": [(0.25, 1), (0.75, 1)]}"),
+                None if lists().next().is_none() => {
+                    error.help("declare one: constants: {\"nodes\": [(0.25, 1), (0.75, 1)]}")
+                }
                 None => error.help(format!("the lists are: {}", lists().collect::<Vec<_>>().join(", "))),
             });
         };

@@ -70,7 +70,8 @@ pub(in crate::program) fn no_function(table: &Table, name: Option<&str>) -> Fail
                 .help("it is a table of cases, which is used without naming a function")
         }
         (Some(name), false) => {
-            let error = Diagnostic::error(codes::NO_FUNCTION, format!("`{}` has no function `{name}`", table.name.value));
+            let error =
+                Diagnostic::error(codes::NO_FUNCTION, format!("`{}` has no function `{name}`", table.name.value));
             match table::nearest(name, known.iter().copied()) {
                 Some(close) => error.help(format!("did you mean `{close}`?")),
                 None => error,
@@ -89,19 +90,26 @@ fn one(table: &Table, function: &table::Function, errors: &mut Vec<Diagnostic>) 
         match table.inputs.iter().find(|input| input.name.value == name.value) {
             Some(input) if inputs.iter().any(|other| other.name.value == name.value) => {
                 let message = format!("`{}` is a parameter twice", name.value);
-                errors.push(Diagnostic::error(codes::DUPLICATE, message).at(name.span, "again").at(input.name.span, "declared here"));
+                errors.push(
+                    Diagnostic::error(codes::DUPLICATE, message)
+                        .at(name.span, "again")
+                        .at(input.name.span, "declared here"),
+                );
                 return None;
             }
             Some(input) if input.fetched.is_some() => {
                 let message = format!("the parameter `{}` is fetched", name.value);
-                errors.push(Diagnostic::error(codes::PARAMETER, message).at(name.span, "functions are given what they need"));
+                errors.push(
+                    Diagnostic::error(codes::PARAMETER, message).at(name.span, "functions are given what they need"),
+                );
                 return None;
             }
             Some(input) => inputs.push(input),
             None => {
                 let known = || table.inputs.iter().map(|input| input.name.value.as_str());
-                let error = Diagnostic::error(codes::PARAMETER, format!("the parameter `{}` is not declared", name.value))
-                    .at(name.span, "not under `inputs`");
+                let error =
+                    Diagnostic::error(codes::PARAMETER, format!("the parameter `{}` is not declared", name.value))
+                        .at(name.span, "not under `inputs`");
                 errors.push(match table::nearest(&name.value, known()) {
                     Some(close) => error.help(format!("did you mean `{close}`?")),
                     None => error.help("declare it: inputs: {\"x\": Range(from: 0, to: 1)}"),
@@ -257,7 +265,8 @@ impl<'t> Lowering<'t> {
             let Some(input) = self.input_named(&name.value) else {
                 return Err(self.unknown_input(name, "not a parameter"));
             };
-            let number = self.numeric(value, &super::Env { parameters: Some(std::rc::Rc::default()), ..super::Env::default() })?;
+            let number =
+                self.numeric(value, &super::Env { parameters: Some(std::rc::Rc::default()), ..super::Env::default() })?;
             match self.pool.constant(number) {
                 Some(number) => at.push((input, number)),
                 None => {

@@ -67,7 +67,7 @@ impl<'t> Lowering<'t> {
             CaseBody::Rows { when, lines } => {
                 let expected = self.expected_output();
                 Ok((self.condition(when, env)?, self.lines(lines, env, expected)?, None))
-            },
+            }
             CaseBody::Image { case: base, under } => {
                 let base_case = self.find_case(base)?;
                 let CaseBody::Rows { when, lines } = &base_case.body else {

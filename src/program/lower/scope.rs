@@ -109,11 +109,18 @@ impl Lowering<'_> {
         // In a function only its own parameters are in sight; a helper's are no inputs.
         let visible = |name: &str| env.parameters.as_ref().is_none_or(|all| all.iter().any(|(p, _)| p == name));
         let inputs = table.inputs.iter().map(|input| (&input.name, "an input")).filter(|(n, _)| visible(&n.value));
-        let helpers = table.helpers.iter().filter(|helper| self.calling.last() == Some(&(env.scope, &helper.name.value)));
+        let helpers =
+            table.helpers.iter().filter(|helper| self.calling.last() == Some(&(env.scope, &helper.name.value)));
         let parameters = helpers.flat_map(|helper| &helper.parameters).map(|name| (name, "a parameter"));
         let constants = table.constants.iter().map(|constant| (&constant.name, "a constant"));
         let named = table.names.iter().map(|named| (&named.name, "a named value"));
-        match locals.chain(parameters).chain(inputs).chain(constants).chain(named).find(|(other, _)| names::identifier(&other.value) == name.value) {
+        match locals
+            .chain(parameters)
+            .chain(inputs)
+            .chain(constants)
+            .chain(named)
+            .find(|(other, _)| names::identifier(&other.value) == name.value)
+        {
             None => Ok(()),
             Some((first, what)) => {
                 Err(Diagnostic::error(codes::DUPLICATE, format!("the name `{}` is taken", name.value))
@@ -219,12 +226,15 @@ impl Lowering<'_> {
         let names = names.chain(scope.constants.iter().map(|c| c.name.value.as_str()));
         let locals = env.locals.iter().map(|(local, _)| local.value.as_str());
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{name}` is not defined")).at(span, "unknown name");
-        if let Some((constant, _)) = scope.constants.iter().map(|c| (c, &c.value)).find(|(c, value)| {
-            c.name.value == name && matches!(value, table::ConstantValue::List(_))
-        }) {
-            return error.at(constant.name.span, "a list of constants").help(format!(
-                "lists stand in sums and polynomials: `sum(n in {name}, ...)`, `poly(x, {name})`"
-            ));
+        if let Some((constant, _)) = scope
+            .constants
+            .iter()
+            .map(|c| (c, &c.value))
+            .find(|(c, value)| c.name.value == name && matches!(value, table::ConstantValue::List(_)))
+        {
+            return error
+                .at(constant.name.span, "a list of constants")
+                .help(format!("lists stand in sums and polynomials: `sum(n in {name}, ...)`, `poly(x, {name})`"));
         }
         if let Some(input) = scope.inputs.iter().find(|input| input.name.value == name) {
             return error.at(input.name.span, "is an input of the table, but not a parameter here");

@@ -262,7 +262,9 @@ impl Lowering<'_> {
             (Term::List(a), Term::List(b)) => Ok(Term::List(zip(self, a, b))),
             (Term::Record(a), Term::Record(b)) if a.iter().map(|p| &p.0).eq(b.iter().map(|p| &p.0)) => {
                 let parts = a.iter().zip(b);
-                Ok(Term::Record(parts.map(|((n, a), (_, b))| (n.clone(), self.pool.select(condition, *a, *b))).collect()))
+                Ok(Term::Record(
+                    parts.map(|((n, a), (_, b))| (n.clone(), self.pool.select(condition, *a, *b))).collect(),
+                ))
             }
             (Term::Level(s, a), Term::Level(t, b)) if s == t => {
                 Ok(Term::Level(*s, Arc::new(LevelTerm::If(condition, a.clone(), b.clone()))))
