@@ -4,6 +4,8 @@ use crate::analyse::{Level, Levels};
 
 /// Arguments of commands that report findings.
 #[derive(clap::Args)]
+// Otherwise a group of the same name as that of the command that takes these.
+#[group(skip)]
 pub(super) struct Arguments {
     /// Report these findings as warnings (exit code 1), whatever they are by themselves
     #[arg(long = "warn", short = 'W', value_name = "CODE", value_delimiter = ',', value_parser = parse(Level::Warn))]
