@@ -140,7 +140,12 @@ impl<'t> Lowering<'t> {
                     span: value.span,
                     guard: always,
                     guard_span: function.name.span,
-                    lines: vec![Line { condition: always, condition_span: None, values: values.clone(), span: value.span }],
+                    lines: vec![Line {
+                        condition: always,
+                        condition_span: None,
+                        values: values.clone(),
+                        span: value.span,
+                    }],
                     section: function.section.clone(),
                     doc: function.doc.clone(),
                     errata: function.errata.clone(),
@@ -164,7 +169,12 @@ impl<'t> Lowering<'t> {
                     let (guard, lines) = self.function_case(case, &env)?;
                     let lines = lines.into_iter().map(|line| {
                         let values = self.result(line.value, line.span)?;
-                        Ok(Line { condition: line.condition, condition_span: line.condition_span, values, span: line.span })
+                        Ok(Line {
+                            condition: line.condition,
+                            condition_span: line.condition_span,
+                            values,
+                            span: line.span,
+                        })
                     });
                     let lines = lines.collect::<Result<Vec<_>>>()?;
                     rows.push(Row {
