@@ -10,14 +10,8 @@ use umbrage::shadow::{
 };
 
 /// Techniques that are evaluated from a shadow map.
-const TECHNIQUES: [Technique; 6] = [
-    Technique::Hard,
-    Technique::Pcf,
-    Technique::Smsr,
-    Technique::Rsmss,
-    Technique::Rpcf,
-    Technique::CaseFree,
-];
+const TECHNIQUES: [Technique; 6] =
+    [Technique::Hard, Technique::Pcf, Technique::Smsr, Technique::Rsmss, Technique::Rpcf, Technique::CaseFree];
 
 /// How far values may differ. Inputs of a table are sums of two exact numbers and a quotient below 1.5,
 /// which WGSL lets be 2.5 ulp off; each input enters a value once, and the value is a sum of three terms below 2.
@@ -58,7 +52,8 @@ fn noise(size: u32, pixels: u32, density: u32, settings: Settings) -> (ShadowMap
 fn noise_is_decided_alike() {
     let gpu = Gpu::open(&AdapterChoice::Any).unwrap_or_else(|error| panic!("{error}"));
     for (size, density) in [(32, 20), (48, 50)] {
-        let (map, receivers, settings) = noise(size, 160, density, Settings { search_limit: 16, ..Settings::default() });
+        let (map, receivers, settings) =
+            noise(size, 160, density, Settings { search_limit: 16, ..Settings::default() });
         compare(&gpu, &format!("noise {size} {density}"), &map, &receivers, &settings);
     }
 }
