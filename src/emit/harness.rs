@@ -134,7 +134,8 @@ pub fn glsl_library(proved: &Proved<'_>, library: &str, version: GlslVersion) ->
     out + library + "\nvoid main() {}\n"
 }
 
-fn reads_lookup(proved: &Proved<'_>) -> bool {
+/// Whether a plan reads a lookup that the host has to supply.
+pub fn reads_lookup(proved: &Proved<'_>) -> bool {
     proved.plan().shape == Shape::Switch(LookupPlace::Buffer)
 }
 
@@ -252,7 +253,7 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
 }
 
 /// Names the buffers, which stand as `$plain` and so on, other than anything of the table.
-fn name_buffers(prefix: &Prefix, text: &str) -> String {
+pub(super) fn name_buffers(prefix: &Prefix, text: &str) -> String {
     text.replace('$', if prefix.lower.starts_with("umbrage") { "columns_" } else { "umbrage_" })
 }
 
@@ -262,7 +263,7 @@ fn count_fetch(layout: &Layout, index: usize) -> String {
     format!("{place} = {place} + {}u;", 1_u32 << (4 * (index % COUNTS_PER_WORD)))
 }
 
-fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
+pub(super) fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
     let plain = program.inputs.iter().filter(|input| input.fetched.is_none());
     let word = |index: usize| format!("$plain[at + {index}u]");
     match entry {
