@@ -45,3 +45,6 @@ pub mod program;
 pub mod shadow;
 pub mod show;
 pub mod table;
+#[cfg(feature = "gpu")]
+pub mod tune;
+pub mod tuned;

@@ -18,6 +18,8 @@ mod levels;
 mod output;
 mod profile;
 mod report;
+#[cfg(feature = "gpu")]
+mod tune;
 
 use std::io;
 use std::process::ExitCode;
@@ -59,6 +61,9 @@ enum Command {
     Explain(explain::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Measure every plan of a table on this device, and keep the best
+    #[cfg(feature = "gpu")]
+    Tune(tune::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -131,6 +136,8 @@ pub fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Tune(arguments) => tune::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
