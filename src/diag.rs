@@ -146,6 +146,19 @@ pub mod codes {
     pub const NOT_FINITE: Code = Code("U0208");
     pub const CIRCULAR_NAME: Code = Code("U0209");
 
+    // Functions of a table.
+    pub const RECURSION: Code = Code("U0210");
+    pub const TOO_MANY_TERMS: Code = Code("U0211");
+    pub const NOT_CONSTANT: Code = Code("U0212");
+    pub const IMPORT: Code = Code("U0213");
+    pub const FUNCTION_SHAPE: Code = Code("U0214");
+    pub const PARAMETER: Code = Code("U0215");
+    pub const NO_FUNCTION: Code = Code("U0216");
+    pub const OUTPUTS: Code = Code("U0217");
+    pub const OUTSIDE_DOMAIN: Code = Code("U0218");
+    pub const LIMIT_BROKEN: Code = Code("U0219");
+    pub const BUDGET_EXCEEDED: Code = Code("U0220");
+
     // Names and declarations.
     pub const BAD_NAME: Code = Code("U0301");
     pub const RESERVED_NAME: Code = Code("U0302");

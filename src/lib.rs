@@ -24,6 +24,8 @@
 //! ```
 
 pub mod analyse;
+#[cfg(feature = "report")]
+pub mod atlas;
 pub mod build;
 pub mod capture;
 #[cfg(feature = "cli")]

@@ -5,6 +5,8 @@
 //! output, messages to standard error.
 
 mod answers;
+#[cfg(feature = "report")]
+mod atlas;
 mod build;
 mod check;
 mod columns;
@@ -48,6 +50,9 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Draw every case of a table
+    #[cfg(feature = "report")]
+    Atlas(atlas::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -129,6 +134,8 @@ pub fn main() -> ExitCode {
     };
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
+        #[cfg(feature = "report")]
+        Command::Atlas(arguments) => atlas::run(&arguments),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]

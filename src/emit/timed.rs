@@ -10,12 +10,12 @@
 use std::fmt::Write;
 
 use super::dialect::{Dialect, Prefix, Type};
-use super::harness::{Entry, Layout, WORKGROUP, arguments, name_buffers, reads_lookup};
+use super::harness::{Entry, Layout, WORKGROUP, arguments, name_buffers, reads_lookup, value_words};
 use super::module;
 use super::names::fetches;
 use super::wgsl::Wgsl;
 use crate::plan::Proved;
-use crate::program::{Output, Program};
+use crate::program::Program;
 
 /// The shader that evaluates a plan once per row.
 pub fn wgsl_timed(proved: &Proved<'_>) -> String {
@@ -48,17 +48,11 @@ pub fn wgsl_timed(proved: &Proved<'_>) -> String {
     }
     let [_, key, ..] = Wgsl.entry_names(&prefix);
     let _ = writeln!(out, "    let value = {key}({});", arguments.join(", "));
-    for index in 0..layout.values {
-        let value = match &program.output {
-            Output::Number => "bitcast<u32>(value)".to_owned(),
-            Output::Enumeration(_) => "value".to_owned(),
-            Output::Vector(_) => format!("bitcast<u32>(value[{index}])"),
-            Output::List { .. } => format!("value[{index}]"),
-        };
-        let _ = writeln!(out, "    $out[row * {}u + {index}u] = {value};", layout.values);
+    for (index, word) in value_words(&program.output, "value", "bitcast<u32>").into_iter().enumerate() {
+        let _ = writeln!(out, "    $out[row * {}u + {index}u] = {word};", layout.values);
     }
     out += "}\n";
-    module::write(proved, &Wgsl) + &name_buffers(&prefix, &out)
+    module::write(proved, &Wgsl) + &name_buffers(program, &prefix, &out)
 }
 
 /// The shader that reads and writes the same data and computes nothing.
@@ -73,7 +67,7 @@ pub fn wgsl_floor(program: &Program) -> String {
         let _ = writeln!(out, "    $out[row * {}u + {index}u] = word;", layout.values);
     }
     out += "}\n";
-    name_buffers(&Prefix::new(&program.name), &out)
+    name_buffers(program, &Prefix::new(&program.name), &out)
 }
 
 fn buffers(program: &Program) -> String {

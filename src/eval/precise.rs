@@ -217,7 +217,7 @@ impl<'p> Precise<'p> {
             Op::Atan => a.atan(BITS, ROUND, cc),
             Op::Atanh => a.atanh(BITS, ROUND, cc),
             Op::Ceil => a.ceil(),
-            Op::Cos => a.cos(BITS, ROUND, cc),
+            Op::Cos | Op::PortableCos => a.cos(BITS, ROUND, cc),
             Op::Cosh => a.cosh(BITS, ROUND, cc),
             Op::Degrees => {
                 let pi = cc.pi(BITS, ROUND);
@@ -238,7 +238,7 @@ impl<'p> Precise<'p> {
             Op::Saturate => a.max(&number(0.0)).min(&one),
             Op::Sign if a.is_zero() => number(0.0),
             Op::Sign => a.signum(),
-            Op::Sin => a.sin(BITS, ROUND, cc),
+            Op::Sin | Op::PortableSin => a.sin(BITS, ROUND, cc),
             Op::Sinh => a.sinh(BITS, ROUND, cc),
             Op::Sqrt => a.sqrt(BITS, ROUND),
             Op::Tan => a.tan(BITS, ROUND, cc),
