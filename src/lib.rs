@@ -43,4 +43,6 @@ pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;
 pub mod show;
+#[cfg(feature = "precise")]
+pub mod stabilise;
 pub mod table;

@@ -17,6 +17,7 @@ mod json_input;
 mod levels;
 mod output;
 mod report;
+mod stabilise;
 
 use std::io;
 use std::process::ExitCode;
@@ -56,6 +57,8 @@ enum Command {
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about
     Explain(explain::Arguments),
+    /// Rewrite formulas that divide by zero or lose their digits
+    Stabilise(stabilise::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -127,6 +130,7 @@ pub fn main() -> ExitCode {
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
