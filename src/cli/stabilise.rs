@@ -67,7 +67,7 @@ fn summary(name: &str, stabilised: &Stabilised, certificates: &[Certificate]) ->
     }
     if !certificates.is_empty() {
         text.push_str(
-            "\nCertificate: f32 against the original in 320 bits, singular points by their limits. `units` is the\n\
+            "\nCertificate: f32 against the original in 384 bits, singular points by their limits. `units` is the\n\
              largest error divided by what half a unit in the last place of each input can change, plus half a\n\
              unit in the last place of the declared scale or else of the value.\n\n",
         );

@@ -53,7 +53,8 @@ fn term(inside: &Mono, variable: &str, mid: &Poly, half: &Poly) -> Option<Poly> 
                 _ => return None,
             };
             let product = reach.times_number((2 * sign).into())?;
-            let difference = product.times(&Poly::fun(other, at_mid.clone()))?.times(&Poly::fun("sinc", reach.clone()))?;
+            let difference =
+                product.times(&Poly::fun(other, at_mid.clone()))?.times(&Poly::fun("sinc", reach.clone()))?;
             if power == 0 {
                 return Some(difference);
             }

@@ -68,7 +68,8 @@ fn points(program: &Program) -> Vec<Vec<Value>> {
     for singularity in singularities(program) {
         // The singular input is moved; which one of several does not matter.
         let fixed = singularity.fixed.map(|(input, _)| input.index());
-        let Some(input) = fixed.or_else(|| program.pool.expr_facts(singularity.divisor).inputs.iter().next().map(|i| i.index()))
+        let Some(input) =
+            fixed.or_else(|| program.pool.expr_facts(singularity.divisor).inputs.iter().next().map(|i| i.index()))
         else {
             all.push(singularity.point);
             continue;

@@ -32,7 +32,11 @@ pub(super) fn apply(table: &Table, values: &[(&Function, String)], kernels: &Ker
     }
     let name = &table.name;
     let stem = name.value.strip_suffix("_printed").unwrap_or(&name.value);
-    edits.push(Edit { start: name.span.start, end: name.span.end, text: renamed(source, name.span, &format!("{stem}_stable")) });
+    edits.push(Edit {
+        start: name.span.start,
+        end: name.span.end,
+        text: renamed(source, name.span, &format!("{stem}_stable")),
+    });
     if !kernels.0.is_empty() {
         let helpers: String = kernels.0.iter().map(|kernel| print::helper(kernel, "        ")).collect();
         edits.push(match table.helpers.first() {

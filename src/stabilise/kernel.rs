@@ -83,7 +83,8 @@ impl Kernels {
         }
         let coefficients: Vec<Rational> = all[divisor as usize..].iter().map(scaled).collect();
         let (count, threshold, bounds) = switch(&terms, divisor, &coefficients);
-        let is_sinc = divisor == 1 && matches!(terms.as_slice(), [t] if t.functions == [("sin".to_owned(), Rational::one())]);
+        let is_sinc =
+            divisor == 1 && matches!(terms.as_slice(), [t] if t.functions == [("sin".to_owned(), Rational::one())]);
         let name = match self.0.iter().filter(|known| known.name != "sinc").count() {
             _ if is_sinc => "sinc".to_owned(),
             number => format!("kernel_{}", (b'a' + number as u8 % 26) as char),
@@ -103,7 +104,8 @@ fn switch(terms: &[Term], divisor: i32, coefficients: &[Rational]) -> (usize, f6
     for count in (3 * step..=(14 * step).min(series.len() - 2 * step)).step_by(step) {
         for tenths in 2..40 {
             let x = f64::from(tenths) * 0.1;
-            let left_out: f64 = series[count..].iter().enumerate().map(|(j, c)| c.abs() * x.powi((count + j) as i32)).sum();
+            let left_out: f64 =
+                series[count..].iter().enumerate().map(|(j, c)| c.abs() * x.powi((count + j) as i32)).sum();
             let value = value(terms, divisor, x);
             let bounds = (left_out / value.abs() + 2.0 * UNIT, cancellation(terms, divisor, x));
             let error = bounds.0.max(bounds.1);
@@ -160,7 +162,8 @@ pub(super) fn extract(sum: &Poly, argument: &Argument, kernels: &mut Kernels) ->
     }
     let mut result = Poly::default();
     for (rest, terms) in groups {
-        let replaced = group(terms, argument, kernels).and_then(|kernel| Poly([(rest.clone(), Rational::one())].into()).times(&kernel));
+        let replaced = group(terms, argument, kernels)
+            .and_then(|kernel| Poly([(rest.clone(), Rational::one())].into()).times(&kernel));
         result = result.plus(&replaced.unwrap_or_else(|| originals[&rest].clone()))?;
     }
     Some(result)

@@ -22,6 +22,8 @@ mod poly;
 mod print;
 mod read;
 mod series;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeSet;
 
@@ -93,11 +95,11 @@ pub fn stabilise(table: &Table) -> Result<Stabilised, Failure> {
 fn value(table: &Table, function: &crate::table::Function, kernels: &mut Kernels) -> Result<Option<String>, String> {
     let mut reader = Reader::new(table);
     let sum = reader.function(function)?;
-    if !reader.divides && reader.bounds.is_empty() {
+    if !reader.singular {
         return Ok(None);
     }
     let too_large = || "it becomes too large".to_owned();
-    let mut sum = tame(&sum).ok_or_else(too_large)?;
+    let mut sum = sum.reduced().and_then(|sum| tame(&sum)).ok_or_else(too_large)?;
     let mut lets = Vec::new();
     let group_by: Vec<String> = reader.bounds.iter().flat_map(|b| [b.mid.clone(), b.half.clone()]).collect();
     let printer = Printer { group_by: &group_by };
@@ -143,7 +145,9 @@ fn tame(sum: &Poly) -> Option<Poly> {
     for (mono, factor) in &sum.0 {
         let single = |name: &str| {
             mono.iter().find_map(|(atom, power)| match atom {
-                Atom::Fun(known, arguments) if known == name && *power == 1 => Some((atom.clone(), arguments[0].clone())),
+                Atom::Fun(known, arguments) if known == name && *power == 1 => {
+                    Some((atom.clone(), arguments[0].clone()))
+                }
                 _ => None,
             })
         };
@@ -198,7 +202,8 @@ fn arguments(sum: &Poly, table: &Table) -> Vec<Argument> {
         if all.iter().any(|known| value.ratio(&known.value).is_some()) {
             continue;
         }
-        let taken = |name: &str| table.inputs.iter().any(|i| i.name.value == name) || all.iter().any(|a| a.name == name);
+        let taken =
+            |name: &str| table.inputs.iter().any(|i| i.name.value == name) || all.iter().any(|a| a.name == name);
         let name = match (is_variable, value.single()) {
             (true, Some((mono, _))) => match mono.keys().next() {
                 Some(Atom::Var(variable)) => variable.clone(),

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::{CheckedAdd, CheckedMul, One, Signed, Zero};
+use num_traits::{CheckedAdd, CheckedMul, One, Zero};
 
 use crate::program::normal::Rational;
 
@@ -176,39 +176,45 @@ impl Poly {
         Some((shared, lead, rest.times_number(lead.recip())?))
     }
 
+    /// The sum with variables of divisors gone from what is divided: `x / (x - y)` is `1 + y / (x - y)`. What
+    /// contains a divisor as a factor loses the division.
+    pub(super) fn reduced(&self) -> Option<Self> {
+        let mut sum = self.clone();
+        for _ in 0..MAX_TERMS * 8 {
+            let found = sum.0.iter().find_map(|(mono, factor)| {
+                let (over, variable, lead, rest) = mono.keys().find_map(|atom| {
+                    let Atom::Over(divisor) = atom else { return None };
+                    let (variable, lead, rest) = divisor.variable()?;
+                    mono.get(&variable).is_some_and(|power| *power > 0).then(|| (atom.clone(), variable, lead, rest))
+                })?;
+                Some((mono.clone(), *factor, over, variable, lead, rest))
+            });
+            let Some((mono, factor, over, variable, lead, rest)) = found else { return Some(sum) };
+            sum.0.remove(&mono);
+            let without = multiply(&mono, &Mono::from([(variable, -1)]));
+            let factor = factor / lead;
+            sum.add_term(multiply(&without, &Mono::from([(over, -1)])), factor)?;
+            for (other, by) in &rest.0 {
+                sum.add_term(multiply(&without, other), -factor.checked_mul(by)?)?;
+            }
+        }
+        None
+    }
+
+    /// A variable that occurs in one term and by itself, its coefficient, and the other terms.
+    fn variable(&self) -> Option<(Atom, Rational, Self)> {
+        self.0.iter().find_map(|(mono, factor)| {
+            let mut atoms = mono.iter();
+            let (Some((atom @ Atom::Var(name), 1)), None) = (atoms.next(), atoms.next()) else { return None };
+            let mut rest = self.clone();
+            rest.0.remove(mono);
+            (!rest.mentions(name)).then(|| (atom.clone(), *factor, rest))
+        })
+    }
+
     /// Whether a variable occurs anywhere.
     pub(super) fn mentions(&self, name: &str) -> bool {
         self.0.keys().any(|mono| mono.keys().any(|atom| atom.mentions(name)))
-    }
-
-    /// Rebuilds the sum with every atom replaced.
-    pub(super) fn map(&self, f: &mut impl FnMut(&Atom) -> Option<Poly>) -> Option<Self> {
-        let mut result = Self::default();
-        for (mono, factor) in &self.0 {
-            let mut product = Self::number(*factor);
-            for (atom, power) in mono {
-                let image = f(atom)?;
-                let image = if *power < 0 { image.reciprocal()? } else { image };
-                for _ in 0..power.unsigned_abs() {
-                    product = product.times(&image)?;
-                }
-            }
-            result = result.plus(&product)?;
-        }
-        Some(result)
-    }
-
-    /// Replaces a variable everywhere.
-    pub(super) fn substitute(&self, name: &str, value: &Self) -> Option<Self> {
-        self.map(&mut |atom| match atom {
-            Atom::Var(var) if var == name => Some(value.clone()),
-            Atom::Var(_) => Some(Self::atom(atom.clone())),
-            Atom::Fun(f, arguments) => {
-                let arguments = arguments.iter().map(|a| a.substitute(name, value)).collect::<Option<_>>()?;
-                Some(Self::atom(Atom::Fun(f.clone(), arguments)))
-            }
-            Atom::Over(sum) => sum.substitute(name, value)?.reciprocal(),
-        })
     }
 
     /// The sum as `a x + b` in a variable x, if it has that form.
@@ -235,11 +241,6 @@ impl Poly {
         let (first, lead) = other.0.iter().next()?;
         let ratio = self.0.get(first)? / lead;
         (other.times_number(ratio)? == *self).then_some(ratio)
-    }
-
-    /// Whether the first coefficient is negative: what is printed with a minus sign in front.
-    pub(super) fn is_negative(&self) -> bool {
-        self.0.values().next().is_some_and(Signed::is_negative)
     }
 }
 
@@ -282,9 +283,13 @@ mod tests {
         let difference = a.minus(&b).expect("small");
         let other = b.minus(&a).and_then(|d| d.times_number(2.into())).expect("small");
         let (one, two) = (difference.reciprocal().expect("not zero"), other.reciprocal().expect("not zero"));
-        assert_eq!(two.times_number((-2).into()), Some(one));
+        assert_eq!(two.times_number((-2).into()), Some(one.clone()));
         assert_eq!(Poly::default().reciprocal(), None);
         let tripled = Poly::var("k").times_number(3.into()).expect("small");
         assert_eq!(tripled.over(&tripled), Some(Poly::whole(1)));
+        // (a c - b c) / (a - b)
+        let c = Poly::var("c");
+        let parts = a.times(&c).and_then(|x| x.times(&one)?.minus(&b.times(&c)?.times(&one)?));
+        assert_eq!(parts.and_then(|parts| parts.reduced()), Some(c));
     }
 }

@@ -31,9 +31,12 @@ pub(super) struct Reader<'t> {
     table: &'t Table,
     /// The bounds met so far.
     pub(super) bounds: Vec<Bounds>,
-    /// Whether something was divided by more than a number.
-    pub(super) divides: bool,
+    /// Whether the function itself, and not only what it calls, divides by more than a number or takes a
+    /// difference between bounds.
+    pub(super) singular: bool,
     depth: usize,
+    /// How many calls of functions lead here.
+    calls: usize,
 }
 
 type Result<T> = std::result::Result<T, String>;
@@ -45,7 +48,7 @@ fn too_large() -> String {
 
 impl<'t> Reader<'t> {
     pub(super) fn new(table: &'t Table) -> Self {
-        Self { table, bounds: Vec::new(), divides: false, depth: 0 }
+        Self { table, bounds: Vec::new(), singular: false, depth: 0, calls: 0 }
     }
 
     /// The value of a function in terms of its parameters.
@@ -83,8 +86,10 @@ impl<'t> Reader<'t> {
                 Ok(Poly::number(decimal(*value).unwrap_or(exact)))
             }
             ExprKind::Name(name) => self.name(name, env),
-            ExprKind::Unary(UnaryOp::Negate, a) => {
-                self.expr(a, env)?.times_number((-1).into()).ok_or_else(too_large)
+            ExprKind::Unary(UnaryOp::Negate, a) => self.expr(a, env)?.times_number((-1).into()).ok_or_else(too_large),
+            ExprKind::Binary(BinaryOp::Divide, a, b) => {
+                let a = self.expr(a, env)?;
+                self.quotient(a, b, env)
             }
             ExprKind::Binary(op, a, b) => {
                 let (a, b) = (self.expr(a, env)?, self.expr(b, env)?);
@@ -92,10 +97,6 @@ impl<'t> Reader<'t> {
                     BinaryOp::Add => a.plus(&b),
                     BinaryOp::Subtract => a.minus(&b),
                     BinaryOp::Multiply => a.times(&b),
-                    BinaryOp::Divide => {
-                        self.divides |= b.constant().is_none();
-                        a.over(&b)
-                    }
                     _ => return Err(format!("`{}` is not arithmetic", op.symbol())),
                 };
                 result.ok_or_else(too_large)
@@ -119,14 +120,39 @@ impl<'t> Reader<'t> {
                 let free = format!("{}'{}", variable.value, self.depth);
                 inner.insert(variable.value.clone(), Poly::var(&free));
                 let body = self.expr(body, &inner)?;
+                self.singular |= self.calls == 0;
                 let (mid, half) = self.bounds(lo, hi);
                 between(&body, &free, &mid, &half)
             }
             ExprKind::If(..) | ExprKind::In(..) | ExprKind::Unary(UnaryOp::Not, _) => {
                 Err("it is a choice, and rules know formulas only".to_owned())
             }
-            ExprKind::Sum(..) | ExprKind::List(_) | ExprKind::Record(_) | ExprKind::Swizzle(..) | ExprKind::Case(..) => {
-                Err("it contains a sum, a list, or several numbers at once".to_owned())
+            ExprKind::Sum(..)
+            | ExprKind::List(_)
+            | ExprKind::Record(_)
+            | ExprKind::Swizzle(..)
+            | ExprKind::Case(..) => Err("it contains a sum, a list, or several numbers at once".to_owned()),
+        }
+    }
+
+    /// A quotient. Of a divisor that is a product each factor is kept by itself, so that equal ones are seen.
+    fn quotient(&mut self, over: Poly, under: &Expr, env: &Env) -> Result<Poly> {
+        match &under.kind {
+            ExprKind::Binary(BinaryOp::Multiply, a, b) => {
+                let part = self.quotient(over, a, env)?;
+                self.quotient(part, b, env)
+            }
+            ExprKind::Call(name, arguments) if name.value == "pow" && arguments.len() == 2 => {
+                let exponent = self.expr(&arguments[1], env)?.constant().filter(|e| e.is_integer());
+                match exponent.map(|e| e.to_integer()) {
+                    Some(count @ 1..=8) => (0..count).try_fold(over, |part, _| self.quotient(part, &arguments[0], env)),
+                    _ => Err("`pow` with an exponent that is no small number".to_owned()),
+                }
+            }
+            _ => {
+                let under = self.expr(under, env)?;
+                self.singular |= self.calls == 0 && under.constant().is_none();
+                over.over(&under).ok_or_else(too_large)
             }
         }
     }
@@ -183,8 +209,10 @@ impl<'t> Reader<'t> {
         let arguments = arguments.iter().map(|a| self.expr(a, env)).collect::<Result<Vec<_>>>()?;
         match (name, arguments.as_slice()) {
             ("pow", [base, exponent]) => {
-                let whole = exponent.constant().filter(|e| e.is_integer() && (0..=8.into()).contains(e));
-                let Some(count) = whole else { return Err("`pow` with an exponent that is no small number".to_owned()) };
+                let whole = exponent.constant().filter(|e| e.is_integer() && (0..=8).contains(&e.to_integer()));
+                let Some(count) = whole else {
+                    return Err("`pow` with an exponent that is no small number".to_owned());
+                };
                 (0..count.to_integer()).try_fold(Poly::whole(1), |p, _| p.times(base)).ok_or_else(too_large)
             }
             _ => Ok(Poly::atom(Atom::Fun(name.to_owned(), arguments))),
@@ -206,7 +234,10 @@ impl<'t> Reader<'t> {
             };
             inner.insert(parameter.clone(), value);
         }
-        self.body(function, inner)
+        self.calls += 1;
+        let value = self.body(function, inner);
+        self.calls -= 1;
+        value
     }
 }
 
