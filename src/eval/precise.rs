@@ -28,7 +28,7 @@ const SHIFT: u32 = 72;
 const AGREE: f64 = 1e-14;
 
 /// Or if they differ by no more than this: as far as the steps themselves can move a value that is zero.
-const NOTHING: f64 = 1e-18;
+pub(crate) const NOTHING: f64 = 1e-18;
 
 /// Nothing needs directed rounding: the spare bits are many.
 const ROUND: RoundingMode = RoundingMode::None;
@@ -74,6 +74,10 @@ impl<'p> Precise<'p> {
     /// # Errors
     /// If there is none, or if an input is needed but absent.
     pub fn limit(&mut self, point: &[Option<Value>]) -> Result<Vec<f64>, Unknown> {
+        let here = self.value(point)?;
+        if here.iter().all(|v| v.is_finite()) {
+            return Ok(here);
+        }
         self.place(point, Some(1));
         let one = self.evaluate()?;
         self.place(point, Some(-1));
