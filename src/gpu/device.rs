@@ -124,6 +124,11 @@ impl Gpu {
         describe(&self.info)
     }
 
+    /// Whether the adapter is a software rasteriser.
+    pub fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
     /// Waits for the device, then shows what a mappable buffer holds.
     ///
     /// # Errors
