@@ -202,6 +202,7 @@ pub mod codes {
     pub const POLE: Code = Code("U0552");
     pub const CANCELS: Code = Code("U0553");
     pub const OVERFLOW: Code = Code("U0554");
+    pub const NO_FUNCTIONS: Code = Code("U0555");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");

@@ -46,6 +46,8 @@ pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;
 pub mod show;
+#[cfg(feature = "precise")]
+pub mod stabilise;
 pub mod table;
 #[cfg(feature = "gpu")]
 pub mod tune;
