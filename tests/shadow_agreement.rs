@@ -59,7 +59,8 @@ struct Executors<'g> {
 
 impl<'g> Executors<'g> {
     fn new(gpu: &'g Gpu) -> Self {
-        let programs: Vec<Option<Program>> = TECHNIQUES.iter().map(|technique| cpu::table(*technique).unwrap()).collect();
+        let programs: Vec<Option<Program>> =
+            TECHNIQUES.iter().map(|technique| cpu::table(*technique).unwrap()).collect();
         let mut shaders = Vec::new();
         for (index, program) in programs.iter().enumerate() {
             let proved = program.as_ref().map(|program| Plan::proved(program, Shape::Ladder).unwrap());
@@ -72,7 +73,15 @@ impl<'g> Executors<'g> {
     }
 
     /// Compares a frame, with every skeleton if it is to be thorough.
-    fn compare(&self, gpu: &Gpu, what: &str, map: &ShadowMap, receivers: &Receivers, settings: &Settings, thorough: bool) {
+    fn compare(
+        &self,
+        gpu: &Gpu,
+        what: &str,
+        map: &ShadowMap,
+        receivers: &Receivers,
+        settings: &Settings,
+        thorough: bool,
+    ) {
         let frame = GpuFrame::new(gpu, map, receivers).unwrap_or_else(|error| panic!("{error}"));
         for (index, technique) in TECHNIQUES.into_iter().enumerate() {
             let program = self.programs[index].as_ref();

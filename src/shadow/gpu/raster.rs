@@ -195,8 +195,7 @@ impl<'g, 's> Raster<'g, 's> {
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
         };
         let vertices = init("corners", bytes, wgpu::BufferUsages::VERTEX);
-        let parameters: [f32; 8] =
-            [size as f32, max_slope(size), DEPTH_UNIT, bias.constant, bias.slope, 0.0, 0.0, 0.0];
+        let parameters: [f32; 8] = [size as f32, max_slope(size), DEPTH_UNIT, bias.constant, bias.slope, 0.0, 0.0, 0.0];
         let uniform = init("goal", bytemuck::cast_slice(&parameters), wgpu::BufferUsages::UNIFORM);
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: None,
@@ -210,7 +209,10 @@ impl<'g, 's> Raster<'g, 's> {
         let attachments: Vec<_> = views
             .iter()
             .map(|view| {
-                let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store };
+                let ops = wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                };
                 Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
             })
             .collect();
