@@ -9,6 +9,7 @@ pub mod code;
 pub mod reach;
 mod steps;
 pub mod text;
+pub mod why;
 
 use crate::eval::{Interpreter, NeedsFetch};
 use crate::program::print::Printer;
