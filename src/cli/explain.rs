@@ -20,6 +20,9 @@ pub(super) struct Arguments {
     /// The table, or a diagnostic code such as U0203
     #[arg(value_name = "TABLE|CODE")]
     table: PathBuf,
+    /// The function of a table of functions
+    #[arg(long, value_name = "NAME")]
+    function: Option<String>,
     /// The point, as in H=left,dV=0.5; inputs that are left out have their default
     #[arg(long, value_name = "INPUT=VALUE,...", default_value = "")]
     at: String,
@@ -36,7 +39,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     {
         return explain_code(word, report);
     }
-    let program = Program::read(&arguments.table)?;
+    let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     let source = Source::new("--at", arguments.at.as_str());
     let (point, assumed) = point(&program, &source)?;
     let explanation = explain::explain(&program, &point, arguments.precision.into())
