@@ -22,6 +22,8 @@ mod profile;
 mod profiled;
 mod report;
 mod stabilise;
+#[cfg(feature = "report")]
+mod table_report;
 #[cfg(feature = "gpu")]
 mod tune;
 mod why;
@@ -71,6 +73,9 @@ enum Command {
     Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Put everything about a table on one page
+    #[cfg(feature = "report")]
+    Report(table_report::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -151,6 +156,8 @@ pub fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(feature = "report")]
+        Command::Report(arguments) => table_report::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),
