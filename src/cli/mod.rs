@@ -15,11 +15,21 @@ mod csv_input;
 mod diff;
 mod eval;
 mod explain;
+#[cfg(feature = "render")]
+mod frame;
 mod json_input;
 mod levels;
 mod output;
 mod profile;
+#[cfg(feature = "render")]
+mod progress;
+#[cfg(all(feature = "render", feature = "report"))]
+mod quality;
+#[cfg(all(feature = "render", feature = "report"))]
+mod render;
 mod report;
+#[cfg(feature = "render")]
+mod scenes;
 
 use std::io;
 use std::process::ExitCode;
@@ -64,6 +74,15 @@ enum Command {
     Explain(explain::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Measure how far each technique is from the true shadow
+    #[cfg(all(feature = "render", feature = "report"))]
+    Quality(quality::Arguments),
+    /// Render a scene with its shadows
+    #[cfg(all(feature = "render", feature = "report"))]
+    Render(render::Arguments),
+    /// List the scenes that come with Umbrage
+    #[cfg(feature = "render")]
+    Scenes,
 }
 
 /// How a command ended that was able to do its work.
@@ -138,6 +157,12 @@ pub fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Quality(arguments) => quality::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Render(arguments) => render::run(&arguments, &report),
+        #[cfg(feature = "render")]
+        Command::Scenes => scenes::run(&report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
