@@ -95,8 +95,8 @@ fn what_is_wrong_with_a_profile_is_said() {
     refused(&place, "profile merge fence.ron --weight 1,2", "error[U0602]: 2 weights for 1 profiles");
     refused(&place, "profile show fence.ron -o fence.gif", "error[U0002]: fence.gif: is no kind of picture");
 
-    let zero = place.read("fence.ron").replace(", 2),", ", 0),").replace(", 1),", ", 0),");
-    place.file("zero.ron", zero.replace("(8, 1), (9, 2), (11, 2)", "(8, 0), (9, 0), (11, 0)"));
+    let zero = place.read("fence.ron").replace("(8, 1), (9, 2), (11, 2)", "");
+    place.file("zero.ron", zero.replace(", 2),", ", 0),").replace(", 1),", ", 0),"));
     refused(&place, "tune smsr.ron --profile zero.ron", "error[U0613]: zero.ron: counts nothing");
     refused(&place, "profile show zero.ron", "error[U0613]: zero.ron: counts nothing");
 
@@ -116,11 +116,11 @@ fn a_profile_of_a_changed_table_is_mapped_with_a_warning() {
     let said = place.run("profile show fence.ron --table smsr.ron");
     assert_eq!(said.code, Some(1));
     assert!(said.err.contains("every count stands; nothing is lost"), "{}", said.err);
-    let text = text.replace("\"both\": 0.75}", "\"both\": 0.75, \"odd\": 1}").replace("id: 11,", "id: 111,");
+    let text = text.replace("\"both\": 0.75}", "\"both\": 0.75, \"odd\": 1}").replace("id: 8,", "id: 108,");
     place.file("smsr.ron", text);
     let said = place.run("profile show fence.ron --table smsr.ron");
     assert_eq!(said.code, Some(1), "{}", said.err);
-    assert!(said.err.contains("3 of 5 counts were mapped by the number of their case, 2 (40.0 %) were lost"));
+    assert!(said.err.contains("4 of 5 counts were mapped by the number of their case, 1 (20.0 %) were lost"));
 }
 
 const TUNE: &str = "tune smsr.ron --profile fence.ron --frames fence.csv --rows 1024 --rounds 3 --plan ladder,switch";
