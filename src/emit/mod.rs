@@ -14,6 +14,7 @@ mod names;
 mod rust;
 mod text;
 mod validate;
+mod values;
 mod wgsl;
 
 use crate::diag::Failure;
