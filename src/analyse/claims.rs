@@ -76,7 +76,10 @@ fn check_accuracy(program: &Program, function: &Function, claim: &Accuracy) -> O
     let message = format!("the function `{}` is less accurate than it claims", function.name);
     Some(
         Diagnostic::error(codes::BUDGET_EXCEEDED, message)
-            .at(claim.span, format!("its error is {:.3} times what the inputs and the scale allow", times * claim.times))
+            .at(
+                claim.span,
+                format!("its error is {:.3} times what the inputs and the scale allow", times * claim.times),
+            )
             .help(format!(
                 "at {}: f32 gives {}, f64 {}",
                 place(program, &point),
@@ -121,11 +124,7 @@ fn check_limit(program: &Program, function: &Function, limit: &Limit) -> Option<
 }
 
 /// What the function comes to on both sides of a point, in the middle.
-fn beside(
-    wide: &mut Interpreter<'_, f64>,
-    point: &[Option<Value>],
-    at: &[(InputId, f64)],
-) -> Option<Vec<f64>> {
+fn beside(wide: &mut Interpreter<'_, f64>, point: &[Option<Value>], at: &[(InputId, f64)]) -> Option<Vec<f64>> {
     let mut sum: Vec<f64> = Vec::new();
     for direction in [-0.5, 0.5] {
         let mut moved = point.to_vec();

@@ -53,9 +53,11 @@ fn run(program: &Program, interpreter: &mut Interpreter<'_, f32>, example: &Exam
     }
     // A function that claims an accuracy is held to it.
     let agree = match allowance(program, &mut Interpreter::new(program), &example.inputs) {
-        Some(allowed) => {
-            got.iter().zip(&example.expected).zip(allowed).all(|((got, expected), allowed)| (got - expected).abs() <= allowed)
-        }
+        Some(allowed) => got
+            .iter()
+            .zip(&example.expected)
+            .zip(allowed)
+            .all(|((got, expected), allowed)| (got - expected).abs() <= allowed),
         None => got.iter().zip(&example.expected).all(|(got, expected)| agrees(*expected, *got)),
     };
     if agree {

@@ -132,7 +132,9 @@ impl Body<'_, '_> {
             {
                 let label = self.plan.pool.label(*other).map(|label| label.replace('.', "_"));
                 let name = match label {
-                    Some(label) if !self.is_taken(&label, locals) && !group.iter().any(|(_, n, ..)| *n == label) => label,
+                    Some(label) if !self.is_taken(&label, locals) && !group.iter().any(|(_, n, ..)| *n == label) => {
+                        label
+                    }
                     _ => self.temporary(),
                 };
                 group.push((*other, name, yes, no));
@@ -215,13 +217,7 @@ impl Body<'_, '_> {
 
     /// Marks what the sides of choices share with the block, and adds to the
     /// block what the sides of several choices share, if it cannot fail.
-    fn share_with_sides(
-        &self,
-        choices: &[ExprId],
-        needs: &mut Needs,
-        shared: &mut HashSet<ExprId>,
-        locals: &Locals,
-    ) {
+    fn share_with_sides(&self, choices: &[ExprId], needs: &mut Needs, shared: &mut HashSet<ExprId>, locals: &Locals) {
         let pool = &self.plan.pool;
         // By condition: statements are.
         let mut reached: HashMap<CondId, BTreeSet<ExprId>> = HashMap::new();
