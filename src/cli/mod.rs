@@ -21,6 +21,7 @@ mod json_input;
 mod levels;
 mod output;
 mod profile;
+mod profiled;
 #[cfg(feature = "render")]
 mod progress;
 #[cfg(all(feature = "render", feature = "report"))]
@@ -30,6 +31,10 @@ mod render;
 mod report;
 #[cfg(feature = "render")]
 mod scenes;
+mod stabilise;
+#[cfg(feature = "gpu")]
+mod tune;
+mod why;
 
 use std::io;
 use std::process::ExitCode;
@@ -70,8 +75,10 @@ enum Command {
     Diff(diff::Arguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
-    /// Say which case is taken at one point, why, and how its value comes about
+    /// Say which case is taken at one point, why, and how its value comes about; or what a code means
     Explain(explain::Arguments),
+    /// Say which inputs reach a case, and what lies around them
+    Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
     /// Measure how far each technique is from the true shadow
@@ -83,6 +90,11 @@ enum Command {
     /// List the scenes that come with Umbrage
     #[cfg(feature = "render")]
     Scenes,
+    /// Rewrite formulas that divide by zero or lose their digits
+    Stabilise(stabilise::Arguments),
+    /// Measure every plan of a table on this device, and keep the best
+    #[cfg(feature = "gpu")]
+    Tune(tune::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -149,13 +161,14 @@ pub fn main() -> ExitCode {
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
         #[cfg(feature = "report")]
-        Command::Atlas(arguments) => atlas::run(&arguments),
+        Command::Atlas(arguments) => atlas::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
         #[cfg(all(feature = "render", feature = "report"))]
         Command::Quality(arguments) => quality::run(&arguments, &report),
@@ -163,6 +176,9 @@ pub fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments, &report),
         #[cfg(feature = "render")]
         Command::Scenes => scenes::run(&report),
+        Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Tune(arguments) => tune::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,

@@ -15,6 +15,7 @@ mod interval;
 #[cfg(feature = "precise")]
 mod precise;
 mod residual;
+mod sample;
 mod scalar;
 
 pub use admissible::{Admissible, IntervalInterpreter, Possible};
@@ -22,5 +23,8 @@ pub use batch::{Batch, Missing};
 pub use columns::{ABSENT, Column, ColumnError, Columns, Path, Results};
 pub use interval::Interval;
 #[cfg(feature = "precise")]
+pub(crate) use precise::NOTHING;
+#[cfg(feature = "precise")]
 pub use precise::{Precise, Unknown};
+pub use sample::Samples;
 pub use scalar::{Interpreter, NeedsFetch, Outcome};
