@@ -5,14 +5,15 @@
 //! without the case. A level that arrives as `f32` is the one whose code is
 //! nearest, so that no test relies on float equality.
 
-use std::collections::BTreeSet;
+use std::collections::HashMap;
 
 use super::body::Body;
 use super::dialect::{Dialect, Prefix, Type};
 use super::names::{Names, fetches, input_type};
+use super::outline::MAX_LEVELS;
 use super::text::{Text, fingerprint};
-use crate::plan::{KeyLayout, LookupPlace, Plan, Proved, Shape, Step};
-use crate::program::{BinaryOp, Domain, InputId, LevelKind, Levels, Node, Program};
+use crate::plan::{KeyLayout, LookupPlace, Plan, Proved, Shape};
+use crate::program::{BinaryOp, Domain, Levels, Node, Program};
 
 /// Writes the module of a plan.
 pub(super) fn write(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
@@ -163,33 +164,8 @@ impl Writer<'_, '_> {
         let per_word = entries_per_word(self.plan);
         let bits = 32 / per_word;
         if self.plan.shape == Shape::Switch(LookupPlace::Constants) {
-            let name = self.dialect.global(&self.prefix, "lookup");
             self.text.comment("The lookup, packed; the commonest word stands last.");
-            let parameter = ("word".to_owned(), Type::Uint);
-            self.text.open(self.dialect.function(&name, &[parameter], &Type::Uint, &self.prefix));
-            let mut groups: Vec<(u32, Vec<u32>)> = Vec::new();
-            for (index, word) in words.iter().enumerate() {
-                match groups.iter_mut().find(|(w, _)| w == word) {
-                    Some((_, indices)) => indices.push(index as u32),
-                    None => groups.push((*word, vec![index as u32])),
-                }
-            }
-            let commonest = (0..groups.len()).max_by_key(|i| (groups[*i].1.len(), usize::MAX - i)).unwrap_or_default();
-            let last = groups.remove(commonest);
-            if !groups.is_empty() {
-                self.text.open(self.dialect.switch_open("word"));
-                for (word, indices) in &groups {
-                    self.text.line(format!(
-                        "{} return {}; }}",
-                        self.dialect.case_open(indices),
-                        self.dialect.uint(*word)
-                    ));
-                }
-                self.text.line(self.dialect.case_default());
-                self.text.close();
-            }
-            self.text.line(format!("return {};", self.dialect.uint(last.0)));
-            self.text.close();
+            self.lookup_constants("lookup", 0, &words);
         } else {
             self.text.comment(&format!(
                 "The lookup is a buffer of {} words, of which the host supplies a reader `{}`.",
@@ -216,6 +192,56 @@ impl Writer<'_, '_> {
         self.text.gap();
     }
 
+    /// A function that returns a word, the first of which has the number `first`.
+    fn lookup_constants(&mut self, name: &str, first: usize, words: &[u32]) {
+        let mut groups: Vec<(u32, Vec<u32>)> = Vec::new();
+        let mut place: HashMap<u32, usize> = HashMap::new();
+        for (index, word) in (first as u32..).zip(words) {
+            let group = *place.entry(*word).or_insert(groups.len());
+            match groups.get_mut(group) {
+                Some((_, indices)) => indices.push(index),
+                None => groups.push((*word, vec![index])),
+            }
+        }
+        let halves = (groups.len() > MAX_LEVELS).then(|| words.split_at(words.len() / 2));
+        let mut calls = Vec::new();
+        if let Some((low, high)) = halves {
+            for (part, first, words) in [("low", first, low), ("high", first + low.len(), high)] {
+                let part = format!("{name}_{part}");
+                self.lookup_constants(&part, first, words);
+                self.text.gap();
+                calls.push(format!("{}(word)", self.dialect.global(&self.prefix, &part)));
+            }
+        }
+        let global = self.dialect.global(&self.prefix, name);
+        let parameter = ("word".to_owned(), Type::Uint);
+        self.text.open(self.dialect.function(&global, &[parameter], &Type::Uint, &self.prefix));
+        if let (Some((low, _)), [below, above]) = (halves, calls.as_slice()) {
+            let middle = self.dialect.uint((first + low.len()) as u32);
+            self.text.open(self.dialect.if_open(&format!("word < {middle}")));
+            self.text.line(format!("return {below};"));
+            self.text.close();
+            self.text.line(format!("return {above};"));
+        } else {
+            let commonest = (0..groups.len()).max_by_key(|i| (groups[*i].1.len(), usize::MAX - i)).unwrap_or_default();
+            let last = groups.remove(commonest);
+            if !groups.is_empty() {
+                self.text.open(self.dialect.switch_open("word"));
+                for (word, indices) in &groups {
+                    self.text.line(format!(
+                        "{} return {}; }}",
+                        self.dialect.case_open(indices),
+                        self.dialect.uint(*word)
+                    ));
+                }
+                self.text.line(self.dialect.case_default());
+                self.text.close();
+            }
+            self.text.line(format!("return {};", self.dialect.uint(last.0)));
+        }
+        self.text.close();
+    }
+
     fn continuous(&self) -> Vec<(String, Type)> {
         let inputs = self.plan.program.inputs.iter().filter(|input| input.fetched.is_none());
         inputs
@@ -230,40 +256,12 @@ impl Writer<'_, '_> {
     }
 
     fn decision(&mut self) {
-        let program = self.plan.program;
         let [.., name] = self.dialect.entry_names(&self.prefix);
         let mut parameters = vec![("key".to_owned(), Type::Uint)];
         parameters.extend(self.continuous());
         parameters.extend(self.site());
-        self.text.comment("The table, on a packed key.");
-        self.text.open(self.dialect.function(&name, &parameters, &Type::Result, &self.prefix));
-        let used = used_inputs(self.plan);
-        for field in self.plan.key.fields().iter().filter(|field| used.contains(&field.input)) {
-            let input = &program.inputs[field.input.index()];
-            let Domain::Discrete(levels) = &input.domain else { continue };
-            let shifted = match field.shift {
-                0 => "key".to_owned(),
-                shift => format!("(key >> {})", self.dialect.uint(shift)),
-            };
-            let level = format!("{shifted} & {}", self.dialect.uint(field.mask()));
-            let (ty, value) = match levels.kind {
-                LevelKind::Bool => (Type::Bool, format!("({level}) != {}", self.dialect.uint(0))),
-                _ => (Type::Uint, level),
-            };
-            let local = self.dialect.local(&ty, &input.ident, &value, &self.prefix);
-            self.text.line(local);
-        }
-        let mut body = Body {
-            plan: self.plan,
-            dialect: self.dialect,
-            prefix: &self.prefix,
-            names: &self.names,
-            text: &mut self.text,
-            temporaries: 0,
-        };
-        body.step(self.plan.root());
-        self.text.close();
-        self.text.gap();
+        let body = Body::new(self.plan, self.dialect, &self.prefix, &self.names);
+        self.text.line(body.decision(&name, &parameters));
     }
 
     /// The other entry points.
@@ -328,28 +326,6 @@ fn describe_key(program: &Program, key: &KeyLayout) -> String {
         }
     });
     fields.collect::<Vec<_>>().join(", ")
-}
-
-/// The inputs that the steps of a plan look at.
-fn used_inputs(plan: &Plan<'_>) -> BTreeSet<InputId> {
-    let mut used = BTreeSet::new();
-    let mut seen = BTreeSet::new();
-    let mut open = vec![plan.root()];
-    while let Some(at) = open.pop() {
-        if !seen.insert(at) {
-            continue;
-        }
-        match plan.step(at) {
-            Step::Test { condition, then, other } => {
-                used.extend(plan.pool.cond_facts(*condition).inputs.iter());
-                open.extend([*then, *other]);
-            }
-            Step::Fetch { next, .. } => open.push(*next),
-            Step::Switch { arms } => open.extend(arms),
-            Step::Leaf(leaf) => used.extend(leaf.values.iter().flat_map(|v| plan.pool.expr_facts(*v).inputs.iter())),
-        }
-    }
-    used
 }
 
 /// Whether a remainder is computed anywhere.

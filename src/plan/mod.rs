@@ -115,6 +115,18 @@ pub enum Step {
     Leaf(Leaf),
 }
 
+impl Step {
+    /// The steps that may come next.
+    pub fn next(&self) -> Vec<StepId> {
+        match self {
+            Step::Test { then, other, .. } => vec![*then, *other],
+            Step::Fetch { next, .. } => vec![*next],
+            Step::Switch { arms } => arms.clone(),
+            Step::Leaf(_) => Vec::new(),
+        }
+    }
+}
+
 /// A result.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Leaf {
@@ -189,6 +201,23 @@ impl<'p> Plan<'p> {
     /// Where evaluation starts.
     pub fn root(&self) -> StepId {
         self.root
+    }
+
+    /// The steps that evaluation can come to, each after all that follow it.
+    pub fn reachable(&self) -> Vec<StepId> {
+        let mut order = Vec::new();
+        let mut seen = vec![false; self.steps.len()];
+        // Beside each step, whether what follows it was put on the stack already.
+        let mut open = vec![(self.root, false)];
+        while let Some((at, done)) = open.pop() {
+            if done {
+                order.push(at);
+            } else if !std::mem::replace(&mut seen[at.0 as usize], true) {
+                open.push((at, true));
+                open.extend(self.step(at).next().into_iter().map(|next| (next, false)));
+            }
+        }
+        order
     }
 }
 
