@@ -5,6 +5,7 @@ use std::path::Path;
 use umbrage::build::find_tables;
 use umbrage::diff::{self, Effort, Options};
 use umbrage::gpu::{AdapterChoice, Gpu};
+use umbrage::plan::Shape;
 use umbrage::program::Program;
 
 /// All states; fewer points in each than `umbrage diff` takes.
@@ -16,7 +17,7 @@ fn no_result_is_outside_of_what_wgsl_admits() {
         let program = Program::read(&path).unwrap_or_else(|error| panic!("{error}"));
         let report = diff::table(&program, &gpu, &options, |_| {}).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(report.states, program.states.count());
-        assert_eq!(report.runs.len(), 3 * 2 * 2, "plans, entry points, languages");
+        assert_eq!(report.runs.len(), Shape::ALL.len() * 2 * 2, "plans, entry points, languages");
         for run in &report.runs {
             assert_eq!(run.offending, 0, "{} {}: {:?}", report.table, run.shape, run.offenders);
             assert_eq!(run.bit_equal + run.admissible, report.points);

@@ -6,10 +6,16 @@
 //! the graph and is part of what [`prove`](prove::prove) proves.
 
 mod build;
+mod chain;
 mod key;
 mod knowledge;
+mod order;
 pub mod prove;
+mod reachable;
 mod rounding;
+mod route;
+mod setting;
+mod tree;
 mod weights;
 
 use std::fmt;
@@ -18,14 +24,24 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
 pub use key::KeyLayout;
-pub use prove::{Counterexample, Proof};
+pub use order::Certificate;
+pub use prove::{Counterexample, Proof, Refusal};
+pub use reachable::reachable;
 pub use weights::Weights;
+
+use setting::Setting;
 
 /// The code shapes that can be asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
-    /// An ordered chain of guards, as written.
+    /// The chain of guards, as written.
     Ladder,
+    /// The chain of guards in the best order that keeps the meaning.
+    Ordered,
+    /// A few tests that decide many guards, then chains in the best order: the published advice.
+    Nested,
+    /// A graph of tests on inputs with the least expected number of them.
+    Tree,
     /// The packed key selects the case through a lookup, then a `switch`.
     Switch(LookupPlace),
 }
@@ -41,13 +57,22 @@ pub enum LookupPlace {
 
 impl Shape {
     /// Every shape, in the order of reports.
-    pub const ALL: [Shape; 3] =
-        [Shape::Ladder, Shape::Switch(LookupPlace::Constants), Shape::Switch(LookupPlace::Buffer)];
+    pub const ALL: [Shape; 6] = [
+        Shape::Ladder,
+        Shape::Ordered,
+        Shape::Nested,
+        Shape::Tree,
+        Shape::Switch(LookupPlace::Constants),
+        Shape::Switch(LookupPlace::Buffer),
+    ];
 
     /// The name on the command line and in file names.
     pub fn name(self) -> &'static str {
         match self {
             Shape::Ladder => "ladder",
+            Shape::Ordered => "ordered",
+            Shape::Nested => "nested",
+            Shape::Tree => "tree",
             Shape::Switch(LookupPlace::Constants) => "switch",
             Shape::Switch(LookupPlace::Buffer) => "switch_buffer",
         }
@@ -145,6 +170,12 @@ pub struct Plan<'p> {
     pub program: &'p Program,
     /// Which shape it has.
     pub shape: Shape,
+    /// Whether it may do anything where the assumptions do not hold.
+    pub assumed: bool,
+    /// Where the weights come from that it was made for.
+    pub weighed: Option<String>,
+    /// How good it is of its kind, where that is known.
+    pub certificate: Option<Certificate>,
     /// The program's terms and those that planning made of them.
     pub pool: Pool,
     /// How the discrete inputs are packed into a key.
@@ -163,11 +194,18 @@ impl<'p> Plan<'p> {
     pub fn new<'w>(program: &'p Program, options: impl Into<PlanOptions<'w>>) -> Result<Self, Failure> {
         let options = options.into();
         let shape = options.shape;
-        let built = match shape {
-            Shape::Ladder => build::ladder(program),
-            Shape::Switch(_) => build::switch(program, shape),
-        };
-        built.map_err(|reason| {
+        let made = Setting::new(program, &options).and_then(|setting| {
+            let plan = match shape {
+                Shape::Ladder => build::ladder(program),
+                Shape::Ordered => chain::ordered(&setting),
+                Shape::Nested => chain::nested(&setting),
+                Shape::Tree => tree::tree(&setting),
+                Shape::Switch(_) => build::switch(&setting, shape),
+            };
+            let weighed = setting.weights.map(|weights| weights.origin().to_owned());
+            plan.map(|plan| Plan { assumed: options.assume, weighed, ..plan })
+        });
+        made.map_err(|reason| {
             let message = format!("the plan `{shape}` does not suit the table `{}`", program.name);
             Failure::new(program.source.clone(), Diagnostic::error(codes::NOT_APPLICABLE, message).help(reason))
         })
@@ -185,11 +223,12 @@ impl<'p> Plan<'p> {
     /// Proves the plan.
     ///
     /// # Errors
-    /// With a counterexample if the plan is not equal to its program.
+    /// With a counterexample if the plan is not equal to its program, and when
+    /// it has too many paths.
     pub fn prove(self) -> Result<Proved<'p>, Failure> {
         match prove::prove(&self) {
             Ok(proof) => Ok(Proved { plan: self, proof }),
-            Err(counterexample) => Err(counterexample.into_failure(self.program)),
+            Err(refusal) => Err(refusal.into_failure(self.program)),
         }
     }
 
