@@ -86,6 +86,12 @@ impl Source {
         self.line_column(offset).0
     }
 
+    /// FNV-1a, 64 bits, of the text: tells whether something was made from this very text.
+    pub fn fingerprint(&self) -> u64 {
+        let bytes = self.text.bytes();
+        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+    }
+
     /// Byte offset of a line and column, both counted from 1, columns in characters.
     pub(crate) fn offset(text: &str, line: usize, column: usize) -> usize {
         let start = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum::<usize>();
@@ -164,6 +170,25 @@ pub mod codes {
     pub const DEAD_CASE: Code = Code("U0504");
     pub const UNUSED_INPUT: Code = Code("U0505");
     pub const SYMMETRY_BROKEN: Code = Code("U0506");
+    pub const NO_LINE: Code = Code("U0507");
+    pub const LINES_CROSS: Code = Code("U0508");
+    pub const ORDER_MATTERS: Code = Code("U0509");
+    pub const NOT_REACHED: Code = Code("U0510");
+    pub const DEAD_LINE: Code = Code("U0511");
+    pub const SYMMETRY_ASSUMED: Code = Code("U0512");
+    pub const OUT_OF_RANGE: Code = Code("U0513");
+    pub const NOT_A_NUMBER: Code = Code("U0514");
+    pub const FLOAT_EQUALITY: Code = Code("U0515");
+    pub const JUMP: Code = Code("U0516");
+    pub const INEXACT: Code = Code("U0520");
+    pub const MERGEABLE: Code = Code("U0521");
+    pub const RENAMED: Code = Code("U0522");
+    pub const NOT_ANALYSED: Code = Code("U0530");
+    pub const UNUSED_ALLOW: Code = Code("U0531");
+    pub const REMOVABLE: Code = Code("U0551");
+    pub const POLE: Code = Code("U0552");
+    pub const CANCELS: Code = Code("U0553");
+    pub const OVERFLOW: Code = Code("U0554");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");
@@ -171,14 +196,28 @@ pub mod codes {
     pub const PROOF_TOO_LONG: Code = Code("U0604");
     pub const INVALID_OUTPUT: Code = Code("U0603");
 
+    // Profiles and tuning.
+    pub const BAD_PROFILE: Code = Code("U0611");
+    pub const OTHER_PROFILE: Code = Code("U0612");
+    pub const EMPTY_PROFILE: Code = Code("U0613");
+    pub const OLD_PROFILE: Code = Code("U0614");
+    pub const EXCLUDED_STATE: Code = Code("U0615");
+
     // Values given to a table.
     pub const BAD_COLUMN: Code = Code("U0701");
     pub const BAD_VALUE: Code = Code("U0702");
     pub const NEEDS_FETCH: Code = Code("U0703");
+    pub const BAD_CAPTURE: Code = Code("U0704");
 
     // Devices.
     pub const NO_ADAPTER: Code = Code("U0801");
     pub const DEVICE: Code = Code("U0802");
+
+    // Scenes and renderers.
+    pub const SCENE: Code = Code("U0901");
+    pub const MESH: Code = Code("U0902");
+    pub const RENDER: Code = Code("U0903");
+    pub const FOREIGN_INPUT: Code = Code("U0904");
 }
 
 /// A place that a diagnostic speaks about.
@@ -368,5 +407,11 @@ mod tests {
         assert_eq!(source.line_column(5), (2, 2));
         assert_eq!(Source::offset(&source.text, 2, 2), 5);
         assert_eq!(source.line_column(999), (3, 1));
+    }
+
+    #[test]
+    fn fingerprint_is_fnv() {
+        assert_eq!(Source::new("t", "").fingerprint(), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(Source::new("t", "a").fingerprint(), 0xaf63_dc4c_8601_ec8c);
     }
 }

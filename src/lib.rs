@@ -25,6 +25,7 @@
 
 pub mod analyse;
 pub mod build;
+pub mod capture;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod diag;
@@ -35,7 +36,10 @@ pub mod eval;
 pub mod explain;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(feature = "report")]
+pub mod picture;
 pub mod plan;
+pub mod profile;
 pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;

@@ -23,6 +23,9 @@ fn generated_files_are_up_to_date() {
     let mut expected = BTreeMap::new();
     for path in build::find_tables(Path::new("tables")).unwrap_or_else(|e| panic!("{e}")) {
         let program = Program::read(&path).unwrap_or_else(|e| panic!("{e}"));
+        if program.exhibit.is_some() {
+            continue;
+        }
         let built = build::table(&program, &build::Options::default()).unwrap_or_else(|e| panic!("{e}"));
         expected.extend(built.files.into_iter().map(|file| (file.path, file.contents)));
     }

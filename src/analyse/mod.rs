@@ -7,7 +7,10 @@
 
 mod coverage;
 mod examples;
+mod levels;
 mod overlap;
+#[cfg(feature = "precise")]
+mod singular;
 mod symmetry;
 mod unused;
 
@@ -16,28 +19,45 @@ use crate::program::{Program, symbolic};
 
 pub use coverage::{Coverage, Dead, coverage};
 pub use examples::agrees;
+pub use levels::{FINDINGS, Findings, Level, Levels};
 pub use overlap::{Overlap, overlaps};
+#[cfg(feature = "precise")]
+pub use singular::{Singularity, singularities};
 pub use symmetry::{Violation, admissible, violations, violations_under};
 
 /// Every analysis that can find something wrong, in the order in which findings are shown.
-const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] =
-    &[examples::findings, overlap::findings, coverage::findings, unused::findings];
+const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] = &[
+    examples::findings,
+    overlap::findings,
+    coverage::findings,
+    unused::findings,
+    #[cfg(feature = "precise")]
+    singular::findings,
+];
 
 /// Analyses that only ever note facts.
 const REMARKS: &[fn(&Program) -> Vec<Diagnostic>] = &[symmetry::findings];
 
-/// Everything that is questionable or worth knowing about a program.
+/// Everything that is questionable or worth knowing about a program, without
+/// what the table itself acknowledges.
 ///
 /// An error contradicts the table's own declarations, a warning does not. A note
 /// is a fact worth knowing, and leaves the table clean.
 pub fn findings(program: &Program) -> Vec<Diagnostic> {
-    ANALYSES.iter().chain(REMARKS).flat_map(|analysis| analysis(program)).collect()
+    report(program, &Levels::default()).open
 }
 
-/// The same without notes; empty for a clean program.
-pub fn problems(program: &Program) -> Vec<Diagnostic> {
-    let found = ANALYSES.iter().flat_map(|analysis| analysis(program));
-    found.filter(|finding| finding.severity != Severity::Note).collect()
+/// Every finding: those to be shown, at the levels asked for, and those that the table acknowledges.
+pub fn report(program: &Program, levels: &Levels) -> Findings {
+    let found = ANALYSES.iter().chain(REMARKS).flat_map(|analysis| analysis(program)).collect();
+    levels::sort(program, found, levels)
+}
+
+/// The findings without notes; empty for a clean program.
+pub fn problems(program: &Program, levels: &Levels) -> Vec<Diagnostic> {
+    let mut found = report(program, levels).open;
+    found.retain(|finding| finding.severity != Severity::Note);
+    found
 }
 
 /// Checks the text of a table and returns the codes and messages of its findings.

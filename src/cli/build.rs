@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::report::{Format, Report};
-use super::{Outcome, Result, parse_shape, parse_target};
+use super::{Outcome, Result, levels, parse_shape, parse_target};
+use crate::analyse::Levels;
 use crate::build::{self, Built, Options};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::emit::Target;
@@ -20,12 +21,14 @@ pub(super) struct Arguments {
     /// Directory for the generated files, one folder per table
     #[arg(long, short, value_name = "DIR", default_value = "generated")]
     output: PathBuf,
-    /// Code shapes: ladder, switch, switch_buffer [default: ladder,switch]
+    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer [default: ladder,switch]
     #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
     plan: Vec<Shape>,
     /// Languages: wgsl, glsl450, glsl330, glsl_es300, rust, spirv, hlsl, msl [default: all]
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
+    #[command(flatten)]
+    levels: levels::Arguments,
 }
 
 /// Builds every table. Nothing is written unless all of them are right.
@@ -37,12 +40,19 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     if !arguments.target.is_empty() {
         options.targets.clone_from(&arguments.target);
     }
+    let levels = arguments.levels.levels();
     let mut done: Vec<(Program, Built)> = Vec::new();
     let mut outcome = Outcome::Clean;
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
-            match one(&file, &options, report, &done) {
-                Ok((built, found)) => {
+            // An exhibit is built only if it was named.
+            let result = Program::read(&file).and_then(|program| match path.is_dir() && program.exhibit.is_some() {
+                true => Ok(None),
+                false => one(program, &options, &levels, report, &done).map(Some),
+            });
+            match result {
+                Ok(None) => {}
+                Ok(Some((built, found))) => {
                     outcome = outcome.max(found);
                     done.push(built);
                 }
@@ -65,12 +75,12 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 fn one(
-    file: &std::path::Path,
+    program: Program,
     options: &Options,
+    levels: &Levels,
     report: &Report,
     done: &[(Program, Built)],
 ) -> std::result::Result<((Program, Built), Outcome), Failure> {
-    let program = Program::read(file)?;
     if let Some((other, _)) = done.iter().find(|(other, _)| other.name == program.name) {
         let message = format!("`{}` and this file both define the table `{}`", other.source.name, program.name);
         let error =
@@ -78,7 +88,7 @@ fn one(
         return Err(Failure::new(program.source.clone(), error));
     }
     // Notes are for `check`: here they would hide what was built.
-    let findings = crate::analyse::problems(&program);
+    let findings = crate::analyse::problems(&program, levels);
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Failure { source: program.source.clone(), diagnostics: findings });
     }

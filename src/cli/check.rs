@@ -4,8 +4,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::report::{self, Format, Report};
-use super::{Outcome, Result};
-use crate::analyse;
+use super::{Outcome, Result, levels};
+use crate::analyse::{self, Levels};
 use crate::build;
 use crate::diag::{Failure, Severity};
 use crate::program::Program;
@@ -16,12 +16,15 @@ pub(super) struct Arguments {
     /// Tables, or directories that contain tables (files named *.ron, at any depth)
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
+    #[command(flatten)]
+    levels: levels::Arguments,
 }
 
 /// Checks every table; a bad one does not keep the others from being checked.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut out = io::stdout().lock();
     let mut outcome = Outcome::Clean;
+    let levels = arguments.levels.levels();
     for path in &arguments.paths {
         let files = match build::find_tables(path) {
             Ok(files) => files,
@@ -31,15 +34,15 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
             }
         };
         for file in files {
-            outcome = outcome.max(table(&mut out, report, &file)?);
+            outcome = outcome.max(table(&mut out, report, &file, &levels, path.is_dir())?);
         }
     }
     out.flush()?;
     Ok(outcome)
 }
 
-/// Checks one table and says how that went.
-fn table(out: &mut impl Write, report: &Report, file: &Path) -> Result<Outcome> {
+/// Checks one table and says how that went. What is found in an exhibit is shown only if it was named.
+fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, walked: bool) -> Result<Outcome> {
     let program = match Program::read(file) {
         Ok(program) => program,
         Err(failure) => {
@@ -51,7 +54,15 @@ fn table(out: &mut impl Write, report: &Report, file: &Path) -> Result<Outcome> 
             return Ok(outcome);
         }
     };
-    let failure = Failure { source: program.source.clone(), diagnostics: analyse::findings(&program) };
+    let found = analyse::report(&program, levels);
+    if walked && program.exhibit.is_some() {
+        if report.format == Format::Human {
+            let count = plural(found.open.len(), "finding");
+            writeln!(out, "exhibit {}: {count}, shown by `umbrage check {0}`", program.source.name)?;
+        }
+        return Ok(Outcome::Clean);
+    }
+    let failure = Failure { source: program.source.clone(), diagnostics: found.open };
     let outcome = show(out, report, &failure)?;
     if report.format == Format::Human {
         let verdict = match outcome {
@@ -63,12 +74,16 @@ fn table(out: &mut impl Write, report: &Report, file: &Path) -> Result<Outcome> 
         let inputs = plural(program.inputs.len(), "input");
         writeln!(
             out,
-            "{verdict} {}: {}, {inputs}{}, {}, {} run",
+            "{verdict} {}: {}, {inputs}{}, {}, {} run{}",
             program.source.name,
             plural(program.rows.len(), "case"),
             if fetched > 0 { format!(" ({fetched} fetched)") } else { String::new() },
             plural(program.states.count(), "state"),
             plural(program.examples.len(), "example"),
+            match found.acknowledged.len() {
+                0 => String::new(),
+                count => format!(", {} acknowledged", plural(count, "finding")),
+            },
         )?;
     }
     Ok(outcome)

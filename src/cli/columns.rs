@@ -1,4 +1,4 @@
-//! Columns of inputs: CSV or JSON → points of a program.
+//! Columns of inputs: CSV, JSON or a capture → points of a program.
 //!
 //! The whole text is kept, so that a bad value can be shown where it stands;
 //! points are made from it in chunks, so that a million rows need little more
@@ -7,7 +7,9 @@
 use std::path::Path;
 
 use super::{csv_input, json_input};
+use crate::capture::{self, Capture};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
+use crate::eval;
 use crate::program::{Input, InputId, Program, Value};
 use crate::table::{nearest, not_utf8, read_text};
 
@@ -104,11 +106,24 @@ impl Problems {
 pub(super) enum Columns<'s> {
     Csv(csv_input::Reader<'s>),
     Json(json_input::Reader<'s>),
+    /// With the number of rows that were given out.
+    Capture(&'s eval::Columns<f32>, usize),
+}
+
+/// What rows are read from.
+pub(super) struct Rows {
+    /// The text, or, for a capture, only its name.
+    pub(super) source: std::sync::Arc<Source>,
+    capture: Option<Capture>,
 }
 
 impl<'s> Columns<'s> {
     /// Reads what comes before the first row.
-    pub(super) fn open(program: &'s Program, source: &'s Source) -> Result<Self, Vec<Diagnostic>> {
+    pub(super) fn open(program: &'s Program, rows: &'s Rows) -> Result<Self, Vec<Diagnostic>> {
+        let source = &*rows.source;
+        if let Some(capture) = &rows.capture {
+            return Ok(Columns::Capture(&capture.columns, 0));
+        }
         // A CSV header cannot begin with a bracket, as no input can.
         let is_json = has_extension(Path::new(&source.name), "json")
             || (source.name == STDIN && source.text.trim_start().starts_with('['));
@@ -123,7 +138,47 @@ impl<'s> Columns<'s> {
         match self {
             Columns::Csv(reader) => reader.next(points, problems),
             Columns::Json(reader) => reader.next(points, problems),
+            Columns::Capture(columns, done) => {
+                points.clear();
+                let end = columns.len().min(*done + CHUNK);
+                for row in *done..end {
+                    // A capture has no lines; the place of a row is its number.
+                    points.push(Span::new(row, row)).copy_from_slice(&columns.point(row));
+                }
+                *done = end;
+                points.len() > 0
+            }
         }
+    }
+
+    /// The row at a place in words, and the place to point at if there is a text.
+    pub(super) fn locate(&self, source: &Source, place: Span) -> (String, Option<Span>) {
+        match self {
+            Columns::Capture(..) => (format!("row {}", place.start + 1), None),
+            _ => (format!("line {}", source.line(place.start)), Some(first_line(&source.text, place))),
+        }
+    }
+}
+
+/// Reads all rows at once.
+pub(super) fn read_all(program: &Program, path: &Path) -> Result<eval::Columns<f32>, Failure> {
+    let rows = read(program, path)?;
+    if let Some(capture) = rows.capture {
+        return Ok(capture.columns);
+    }
+    let fail = |diagnostics| Failure { source: rows.source.clone(), diagnostics };
+    let mut columns = Columns::open(program, &rows).map_err(fail)?;
+    let (mut points, mut problems) = (Points::new(program.inputs.len()), Problems::default());
+    let mut all = eval::Columns::new(program);
+    while columns.next(&mut points, &mut problems) {
+        for index in 0..points.len() {
+            // Values were checked when they were read.
+            let _ = all.push(points.point(index));
+        }
+    }
+    match problems.is_empty() {
+        true => Ok(all),
+        false => Err(problems.into_failure(rows.source.clone())),
     }
 }
 
@@ -134,11 +189,16 @@ pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
 
-/// Reads the text of the rows, `-` being standard input.
-pub(super) fn read(path: &Path) -> Result<std::sync::Arc<Source>, Failure> {
+/// Reads what the rows are in, `-` being standard input.
+pub(super) fn read(program: &Program, path: &Path) -> Result<Rows, Failure> {
+    let text = |source| Ok(Rows { source, capture: None });
     if path.as_os_str() != "-" {
         let name = path.to_string_lossy().replace('\\', "/");
-        return Ok(Source::new(name, read_text(path, MAX_BYTES)?));
+        if has_extension(path, "bin") {
+            let capture = Some(capture::read(program, path)?);
+            return Ok(Rows { source: Source::new(name, ""), capture });
+        }
+        return text(Source::new(name, read_text(path, MAX_BYTES)?));
     }
     let fail =
         |message: String, help: &str| Failure::bare(STDIN, Diagnostic::error(codes::UNREADABLE, message).help(help));
@@ -146,8 +206,12 @@ pub(super) fn read(path: &Path) -> Result<std::sync::Arc<Source>, Failure> {
     std::io::Read::read_to_end(&mut std::io::stdin().lock(), &mut bytes).map_err(|e| {
         fail(format!("cannot be read: {}", crate::table::io_reason(&e)), "pipe the rows into the command")
     })?;
+    if capture::is_capture(&bytes) {
+        let capture = capture::parse(program, &bytes).map_err(|error| Failure::bare(STDIN, error))?;
+        return Ok(Rows { source: Source::new(STDIN, ""), capture: Some(capture) });
+    }
     match String::from_utf8(bytes) {
-        Ok(text) => Ok(Source::new(STDIN, text)),
+        Ok(bytes) => text(Source::new(STDIN, bytes)),
         Err(error) => Err(fail(not_utf8(&error), "save it as UTF-8")),
     }
 }

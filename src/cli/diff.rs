@@ -7,8 +7,9 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
 use super::report::{Format, Report};
-use super::{Outcome, Result, parse_shape};
+use super::{Outcome, Result, columns, parse_shape};
 use crate::build;
+use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff::{self, Options};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::plan::Shape;
@@ -23,7 +24,7 @@ pub(super) struct Arguments {
     /// The adapter: any, software, hardware, or a part of its name
     #[arg(long, value_name = "WHICH", default_value = "any")]
     adapter: AdapterChoice,
-    /// Code shapes: ladder, switch, switch_buffer [default: all]
+    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer [default: all]
     #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
     plan: Vec<Shape>,
     /// Most points of the grid on the continuous inputs, per discrete state
@@ -32,6 +33,9 @@ pub(super) struct Arguments {
     /// Random points per discrete state
     #[arg(long, value_name = "COUNT", default_value_t = diff::Effort::default().random)]
     random: usize,
+    /// Compare at these inputs of one table instead: *.bin, a capture, or CSV or *.json as `eval` reads it
+    #[arg(long, value_name = "FILE", value_delimiter = ',', conflicts_with_all = ["grid", "random"])]
+    frames: Vec<PathBuf>,
 }
 
 /// Compares every table.
@@ -45,9 +49,25 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut programs = Vec::new();
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
-            programs.push(Program::read(&file)?);
+            let program = Program::read(&file)?;
+            // An exhibit is compared only if it was named.
+            if !path.is_dir() || program.exhibit.is_none() {
+                programs.push(program);
+            }
         }
     }
+    let frames = match (arguments.frames.as_slice(), programs.as_slice()) {
+        ([], _) => None,
+        (files, [program]) => {
+            let read = files.iter().map(|file| columns::read_all(program, file));
+            Some(read.collect::<std::result::Result<Vec<_>, Failure>>()?)
+        }
+        (_, several) => {
+            let message = format!("`--frames` belongs to one table, and {} are given", several.len());
+            let error = Diagnostic::error(codes::NOT_APPLICABLE, message).help("name the file of the table");
+            return Err(Failure::bare("", error).into());
+        }
+    };
     let gpu = Gpu::open(&arguments.adapter)?;
     let mut out = io::stdout().lock();
     if report.format == Format::Human {
@@ -56,7 +76,10 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut outcome = Outcome::Clean;
     for program in &programs {
         let bar = progress(program);
-        let result = diff::table(program, &gpu, &options, |state| bar.set_position(state as u64));
+        let result = match &frames {
+            None => diff::table(program, &gpu, &options, |state| bar.set_position(state as u64)),
+            Some(frames) => diff::frames(program, &gpu, &options.shapes, frames),
+        };
         bar.finish_and_clear();
         let result = result?;
         if result.offending() > 0 {
@@ -84,7 +107,8 @@ fn progress(program: &Program) -> ProgressBar {
 }
 
 fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Result<()> {
-    writeln!(out, "{}: {} states, {} points", program.source.name, report.states, report.points)?;
+    let states = report.states.map_or(String::new(), |states| format!("{states} states, "));
+    writeln!(out, "{}: {states}{} points", program.source.name, report.points)?;
     writeln!(out, "  plan           entry   source   bit-equal  admissible   offending   worst difference")?;
     for run in &report.runs {
         writeln!(

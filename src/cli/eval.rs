@@ -9,7 +9,7 @@ use super::columns::{self, Columns, Points, Problems};
 use super::output::Sink;
 use super::report::Report;
 use super::{Outcome, PrecisionArgument, Result, parse_shape};
-use crate::diag::{Diagnostic, Failure, Source, Span, codes};
+use crate::diag::{Diagnostic, Failure, Span, codes};
 #[cfg(feature = "gpu")]
 use crate::emit::harness::Entry;
 use crate::eval::{self, Batch, Interpreter, NeedsFetch};
@@ -27,7 +27,7 @@ use crate::show::Precision;
 pub(super) struct Arguments {
     /// The table
     table: PathBuf,
-    /// Rows of inputs: CSV with a header, or *.json with an array of objects; `-` is standard input
+    /// Rows of inputs: CSV with a header, *.json with an array of objects, or *.bin, a capture; `-` is standard input
     #[arg(long, default_value = "-", value_name = "FILE")]
     input: PathBuf,
     /// Where the answers go, one per row: CSV, or *.json; `-` is standard output
@@ -39,7 +39,7 @@ pub(super) struct Arguments {
     /// What computes the answers
     #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]
     executor: ExecutorArgument,
-    /// Code shape to run on the GPU: ladder, switch, switch_buffer [default: ladder]
+    /// Code shape to run on the GPU: ladder, ordered, nested, tree, switch, switch_buffer [default: ladder]
     #[arg(long, value_name = "PLAN", value_parser = parse_shape)]
     plan: Option<Shape>,
     /// The adapter: any, software, hardware, or a part of its name
@@ -98,9 +98,10 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         report.failure(&Failure::bare("", note));
     }
     let precision = arguments.precision.into();
-    let source = columns::read(&arguments.input)?;
+    let rows = columns::read(&program, &arguments.input)?;
+    let source = &rows.source;
     let fail = |diagnostics| Failure { source: source.clone(), diagnostics };
-    let mut columns = Columns::open(&program, &source).map_err(fail)?;
+    let mut columns = Columns::open(&program, &rows).map_err(fail)?;
     let json = columns::has_extension(&arguments.output, "json");
     let sink = Sink::create(&arguments.output)?;
     let mut writer = Writer::start(&program, precision, json, sink)?;
@@ -110,7 +111,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         // Rows that cannot be read have no answer; the others are judged nevertheless, to report all that is wrong.
         let answers = evaluate(&program, &points, &executor, precision)?;
         for (index, input) in &answers.needed {
-            problems.push(|| needs(&program, &source, points.point(*index), points.place(*index), *input));
+            let place = columns.locate(source, points.place(*index));
+            problems.push(|| needs(&program, points.point(*index), place, *input));
         }
         if problems.is_empty() {
             writer.write(&answers)?;
@@ -124,14 +126,17 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 /// A row that leaves out what it needs.
-fn needs(program: &Program, source: &Source, point: &[Option<Value>], place: Span, input: InputId) -> Diagnostic {
+fn needs(program: &Program, point: &[Option<Value>], place: (String, Option<Span>), input: InputId) -> Diagnostic {
     let input = &program.inputs[input.index()];
     let row = explain(program, point, Precision::F32).err().and_then(|needed| needed.row);
     let who = row.map_or("this row".to_owned(), |row| format!("case {}", program.rows[row].id));
-    let message = format!("line {}: {who} needs `{}`, which is absent", source.line(place.start), input.name);
-    Diagnostic::error(codes::NEEDS_FETCH, message)
-        .at(columns::first_line(&source.text, place), format!("no value of `{}`", input.name))
-        .help(format!("give `{}` a value in this row: {}", input.name, input.doc))
+    let (place, span) = place;
+    let mut error =
+        Diagnostic::error(codes::NEEDS_FETCH, format!("{place}: {who} needs `{}`, which is absent", input.name));
+    if let Some(span) = span {
+        error = error.at(span, format!("no value of `{}`", input.name));
+    }
+    error.help(format!("give `{}` a value in this row: {}", input.name, input.doc))
 }
 
 /// Answers some points.

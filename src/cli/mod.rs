@@ -14,7 +14,9 @@ mod diff;
 mod eval;
 mod explain;
 mod json_input;
+mod levels;
 mod output;
+mod profile;
 mod report;
 
 use std::io;
@@ -55,6 +57,8 @@ enum Command {
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about
     Explain(explain::Arguments),
+    /// Count how often each state of a table occurs; merge, show and compare such counts
+    Profile(profile::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -126,6 +130,7 @@ pub fn main() -> ExitCode {
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Profile(arguments) => profile::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,

@@ -13,7 +13,7 @@ mod points;
 
 use std::fmt::Write as _;
 
-use crate::diag::Failure;
+use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::harness::Entry;
 use crate::eval::{Batch, Columns, IntervalInterpreter, Results};
 use crate::gpu::{Gpu, Kernel, Language, Outputs};
@@ -48,8 +48,8 @@ impl Default for Options {
 pub struct Report {
     /// Name of the table.
     pub table: String,
-    /// Discrete states gone through: all of them.
-    pub states: usize,
+    /// Discrete states gone through, all of them; `None` if the points were given.
+    pub states: Option<usize>,
     /// Points compared, per run.
     pub points: usize,
     /// One per plan, entry point and language.
@@ -99,13 +99,27 @@ impl Report {
 /// # Errors
 /// When a plan cannot be proved, or the device fails.
 pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnMut(usize)) -> Result<Report, Failure> {
-    let mut proved: Vec<Proved<'_>> = Vec::new();
-    for shape in &options.shapes {
-        if let Ok(plan) = Plan::new(program, *shape) {
-            proved.push(plan.prove()?);
-        }
+    plans(program, &suitable(program, &options.shapes)?, gpu, options.effort, progress)
+}
+
+/// Compares plans of a program on a device with the interpreter at given points,
+/// which must have every fetched input that is needed.
+///
+/// # Errors
+/// When a plan cannot be proved, an input is missing, or the device fails.
+pub fn frames(program: &Program, gpu: &Gpu, shapes: &[Shape], frames: &[Columns<f32>]) -> Result<Report, Failure> {
+    let proved = suitable(program, shapes)?;
+    let mut comparison = Comparison::new(program, &proved, gpu)?;
+    for columns in frames {
+        comparison.points(columns)?;
     }
-    plans(program, &proved, gpu, options.effort, progress)
+    Ok(comparison.report)
+}
+
+/// The plans that suit a table, proved.
+fn suitable<'p>(program: &'p Program, shapes: &[Shape]) -> Result<Vec<Proved<'p>>, Failure> {
+    let plans = shapes.iter().filter_map(|shape| Plan::new(program, *shape).ok());
+    plans.map(Plan::prove).collect()
 }
 
 /// Compares plans with the interpreter of a program: normally their own. With
@@ -121,55 +135,82 @@ pub fn plans(
     effort: Effort,
     mut progress: impl FnMut(usize),
 ) -> Result<Report, Failure> {
-    let mut kernels = Vec::new();
-    let mut runs = Vec::new();
-    for proved in proved {
-        for entry in Entry::ALL {
-            for language in Language::ALL {
-                kernels.push(Kernel::new(gpu, proved, entry, language)?);
-                runs.push(Run {
-                    shape: proved.plan().shape,
-                    entry,
-                    language,
-                    bit_equal: 0,
-                    admissible: 0,
-                    offending: 0,
-                    worst: 0.0,
-                    offenders: Vec::new(),
-                });
-            }
-        }
-    }
+    let mut comparison = Comparison::new(program, proved, gpu)?;
     let mut points = Points::new(program, effort);
-    let mut interpreter = Batch::<f32>::new(program);
-    let mut judge = Judge { program, intervals: IntervalInterpreter::new(program) };
-    let mut report = Report { table: program.name.clone(), states: program.states.count(), points: 0, runs };
+    let states = program.states.count();
+    comparison.report.states = Some(states);
     let mut state = 0;
-    while state < report.states {
+    while state < states {
         let mut columns = Columns::<f32>::new(program);
-        while state < report.states && columns.len() < BATCH {
+        while state < states && columns.len() < BATCH {
             for point in points.of_state(state) {
                 columns.push(&point).map_err(|error| internal(program, &error.to_string()))?;
             }
             state += 1;
         }
-        let expected = interpreter.evaluate(&columns).map_err(|missing| {
-            internal(program, &format!("`{}` is missing", program.inputs[missing.input.index()].name))
-        })?;
-        report.points += columns.len();
-        for (kernel, run) in kernels.iter().zip(&mut report.runs) {
-            let outputs = kernel.run(&columns)?;
-            for point in 0..columns.len() {
-                judge.compare(&columns, point, &expected, &outputs, run);
-            }
-        }
+        comparison.points(&columns)?;
         progress(state);
     }
-    Ok(report)
+    Ok(comparison.report)
+}
+
+/// A comparison under way.
+struct Comparison<'a, 'p> {
+    kernels: Vec<Kernel<'a, 'p>>,
+    interpreter: Batch<'p, f32>,
+    judge: Judge<'p>,
+    report: Report,
+}
+
+impl<'a, 'p> Comparison<'a, 'p> {
+    fn new(program: &'p Program, proved: &[Proved<'p>], gpu: &'a Gpu) -> Result<Self, Failure> {
+        let mut kernels = Vec::new();
+        let mut runs = Vec::new();
+        for proved in proved {
+            for entry in Entry::ALL {
+                for language in Language::ALL {
+                    kernels.push(Kernel::new(gpu, proved, entry, language)?);
+                    runs.push(Run {
+                        shape: proved.plan().shape,
+                        entry,
+                        language,
+                        bit_equal: 0,
+                        admissible: 0,
+                        offending: 0,
+                        worst: 0.0,
+                        offenders: Vec::new(),
+                    });
+                }
+            }
+        }
+        Ok(Self {
+            kernels,
+            interpreter: Batch::new(program),
+            judge: Judge { program, intervals: IntervalInterpreter::new(program) },
+            report: Report { table: program.name.clone(), states: None, points: 0, runs },
+        })
+    }
+
+    fn points(&mut self, columns: &Columns<f32>) -> Result<(), Failure> {
+        let program = self.judge.program;
+        let expected = self.interpreter.evaluate(columns).map_err(|missing| {
+            let input = &program.inputs[missing.input.index()].name;
+            let message = format!("row {} needs `{input}`, which is absent", missing.row + 1);
+            let error = Diagnostic::error(codes::NEEDS_FETCH, message);
+            Failure::new(program.source.clone(), error.help("a capture holds what the frame fetched; make it again"))
+        })?;
+        self.report.points += columns.len();
+        for (kernel, run) in self.kernels.iter().zip(&mut self.report.runs) {
+            let outputs = kernel.run(columns)?;
+            for point in 0..columns.len() {
+                self.judge.compare(columns, point, &expected, &outputs, run);
+            }
+        }
+        Ok(())
+    }
 }
 
 fn internal(program: &Program, message: &str) -> Failure {
-    use crate::diag::{Diagnostic, codes};
     let error =
         Diagnostic::error(codes::BAD_VALUE, format!("the points of `{}` do not fit it: {message}", program.name));
     Failure::new(program.source.clone(), error.help("please report this: points are made from the table itself"))

@@ -61,11 +61,6 @@ pub(super) fn harmless(text: &str) -> String {
         .collect()
 }
 
-/// FNV-1a, 64 bits: names the inputs of a file in its header.
-pub(super) fn fingerprint(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,11 +68,5 @@ mod tests {
     #[test]
     fn comments_stay_comments() {
         assert_eq!(harmless("a\nfn evil() {}\u{2028}b\\"), "a fn evil() {} b/");
-    }
-
-    #[test]
-    fn fingerprint_is_fnv() {
-        assert_eq!(fingerprint(b""), 0xcbf2_9ce4_8422_2325);
-        assert_eq!(fingerprint(b"a"), 0xaf63_dc4c_8601_ec8c);
     }
 }

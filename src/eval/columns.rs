@@ -228,6 +228,28 @@ impl<T: Real> Columns<T> {
         Ok(())
     }
 
+    /// Some of the points, in the order of `rows`; a row may be named more than once.
+    ///
+    /// # Panics
+    /// If there is no such row.
+    #[must_use]
+    pub fn select(&self, rows: &[usize]) -> Self {
+        let pick = |column: &Column<T>| match column {
+            Column::Levels(levels) => Column::Levels(rows.iter().map(|row| levels[*row]).collect()),
+            Column::Numbers { values, present } => Column::Numbers {
+                values: rows.iter().map(|row| values[*row]).collect(),
+                present: present.as_ref().map(|present| rows.iter().map(|row| present[*row]).collect()),
+            },
+        };
+        Self {
+            len: rows.len(),
+            columns: self.columns.iter().map(pick).collect(),
+            counts: self.counts.clone(),
+            fetched: self.fetched,
+            gaps: self.gaps,
+        }
+    }
+
     /// How many points there are.
     pub fn len(&self) -> usize {
         self.len

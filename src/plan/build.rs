@@ -133,7 +133,18 @@ impl<'p> Builder<'p> {
     }
 
     pub(super) fn finish(self, shape: Shape, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
-        Plan { program: self.program, shape, assumed: false, weighed: None, certificate: None, pool: self.pool, key, lookup, steps: self.steps, root }
+        Plan {
+            program: self.program,
+            shape,
+            assumed: false,
+            weighed: None,
+            certificate: None,
+            pool: self.pool,
+            key,
+            lookup,
+            steps: self.steps,
+            root,
+        }
     }
 
     pub(super) fn push(&mut self, step: Step) -> Result<StepId> {

@@ -147,11 +147,7 @@ fn parted(
 
 /// The condition that rules out most cases, on one side or the other; of
 /// equally good ones that which divides the cases most evenly.
-fn most_deciding(
-    builder: &mut Builder<'_>,
-    setting: &Setting<'_, '_>,
-    states: &[usize],
-) -> Result<Option<CondId>> {
+fn most_deciding(builder: &mut Builder<'_>, setting: &Setting<'_, '_>, states: &[usize]) -> Result<Option<CondId>> {
     let claims = setting.claims()?;
     let mut best: Option<((usize, usize), CondId)> = None;
     for condition in candidates(setting.program, &mut builder.pool) {

@@ -23,9 +23,9 @@ use std::fmt;
 use super::reachable::reachable;
 use super::{Leaf, Plan, Step, StepId, rounding, route};
 use crate::diag::{Diagnostic, Failure, codes};
+use crate::program::claims::Claims;
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::claims::Claims;
 use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Row, Value};
 
 /// Most paths of one state, and of all states together beyond the first of each.

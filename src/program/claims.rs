@@ -139,8 +139,7 @@ impl<'p> Boxes<'p> {
 
     /// How many states [`Self::each`] would look at.
     pub(crate) fn size(&self, pool: &Pool, condition: CondId) -> usize {
-        self.hull(pool, condition)
-            .map_or(0, |hull| hull.iter().map(|levels| levels.0.count_ones() as usize).product())
+        self.hull(pool, condition).map_or(0, |hull| hull.iter().map(|levels| levels.0.count_ones() as usize).product())
     }
 
     /// Calls `visit` with every state in which a condition may hold, and with

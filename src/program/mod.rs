@@ -16,6 +16,7 @@
 
 pub(crate) mod claims;
 mod domain;
+pub mod draw;
 mod lower;
 pub(crate) mod normal;
 mod ops;
@@ -27,7 +28,7 @@ pub(crate) mod symbolic;
 use std::sync::Arc;
 
 use crate::diag::{Failure, Source, Span};
-use crate::table::{Erratum, HitPolicy, Table};
+use crate::table::{Allow, Erratum, HitPolicy, Table};
 
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 pub use lower::LevelTerm;
@@ -85,10 +86,18 @@ pub struct Program {
     pub output: Output,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
+    /// How inputs are drawn.
+    pub draw: Vec<(InputId, draw::Draw)>,
     /// Declared symmetries.
     pub symmetries: Vec<Symmetry>,
     /// Inputs with expected results.
     pub examples: Vec<Example>,
+    /// Where the value is meant to have no jumps.
+    pub continuity: Vec<Continuity>,
+    /// Findings about the table as a whole that are known and stay.
+    pub allow: Vec<Allow>,
+    /// Set for a table that is kept to be looked at, mistakes included, with the reason.
+    pub exhibit: Option<String>,
 }
 
 /// What a table returns: one number per component.
@@ -144,6 +153,8 @@ pub struct Row {
     pub doc: String,
     /// Misprints of the source that were mended here.
     pub errata: Vec<Erratum>,
+    /// Findings about this row that are known and stay.
+    pub allow: Vec<Allow>,
 }
 
 /// A line of a row's value.
@@ -185,6 +196,25 @@ pub struct Symmetry {
     pub result: Option<ExprId>,
     /// Where it is declared.
     pub span: Span,
+}
+
+/// Where the value is meant to have no jumps.
+#[derive(Debug, Clone)]
+pub struct Continuity {
+    /// What it is called and what the inputs are on the other side; the result
+    /// is the same there. Nothing is mapped for a switch.
+    pub map: Symmetry,
+    /// Which places.
+    pub kind: ContinuityKind,
+}
+
+/// Places at which the value is meant to have no jumps.
+#[derive(Debug, Clone)]
+pub enum ContinuityKind {
+    /// Where the condition holds, the point touches its image; these inputs can be anything there.
+    Border(CondId, Vec<InputId>),
+    /// Wherever a comparison that involves one of these inputs changes its outcome.
+    Switch(Vec<InputId>),
 }
 
 /// Inputs with the expected result.
@@ -233,6 +263,11 @@ impl Program {
             Domain::Discrete(levels) => Some(levels),
             Domain::Continuous { .. } => None,
         }
+    }
+
+    /// Names the very text that this program was read from, as generated files do.
+    pub fn fingerprint(&self) -> String {
+        format!("fnv1a {:016x}", self.source.fingerprint())
     }
 
     /// The line of the source that a place is on, counted from 1.

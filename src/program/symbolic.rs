@@ -19,8 +19,8 @@ use super::region::{self, Sign};
 use crate::program::normal::{Affine, Normaliser, Term};
 use crate::program::print::Printer;
 use crate::program::{
-    BinaryOp, Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, LevelTerm, Node, Pool, Program, Symmetry, TernaryOp,
-    UnaryOp, Value,
+    BinaryOp, Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, LevelTerm, Node, Pool, Program, Symmetry,
+    TernaryOp, UnaryOp, Value,
 };
 
 /// Most paths of one state that are looked at. Published tables have a few dozen.

@@ -6,11 +6,12 @@
 //! Names are resolved, types checked and references followed by
 //! [`crate::program`]; nothing past that point looks at RON again.
 
+pub mod draw;
 pub mod expr;
 mod lex;
 pub(crate) mod names;
 pub(crate) mod parse;
-mod raw;
+pub(crate) mod raw;
 mod read;
 
 use std::path::Path;
@@ -51,12 +52,20 @@ pub struct Table {
     pub symmetries: Vec<Symmetry>,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
+    /// How inputs are drawn.
+    pub draw: Vec<(Spanned<String>, draw::Draw)>,
     /// What the table returns.
     pub output: Spanned<Output>,
     /// The rows, in the order written.
     pub cases: Vec<Case>,
     /// The result where no case matches.
     pub default: Expr,
+    /// Where the value is meant to have no jumps.
+    pub continuity: Vec<Continuity>,
+    /// Findings about the table as a whole that are known and stay.
+    pub allow: Vec<Allow>,
+    /// Set for a table that is kept to be looked at, mistakes included, with the reason.
+    pub exhibit: Option<String>,
 }
 
 /// What it means that several cases match the same input.
@@ -144,6 +153,44 @@ pub enum Image {
     },
 }
 
+/// Where the value is meant to have no jumps.
+#[derive(Debug, Clone)]
+pub struct Continuity {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// Which places.
+    pub kind: ContinuityKind,
+    /// What it is.
+    pub doc: String,
+}
+
+/// Places at which the value is meant to have no jumps.
+#[derive(Debug, Clone)]
+pub enum ContinuityKind {
+    /// Two points that touch: one for which the condition holds, and its image.
+    Border {
+        /// When a point has such a neighbour.
+        when: Expr,
+        /// For each input that is not the same on the other side: what it is there.
+        map: Vec<(Spanned<String>, Image)>,
+        /// Inputs that can be anything on the other side.
+        free: Vec<Spanned<String>>,
+    },
+    /// Wherever a comparison of these inputs changes its outcome.
+    Switch(Vec<Spanned<String>>),
+}
+
+/// A finding that is known and stays, with the reason.
+#[derive(Debug, Clone)]
+pub struct Allow {
+    /// Where it stands.
+    pub span: Span,
+    /// The code of the finding.
+    pub code: Spanned<String>,
+    /// Why it stays.
+    pub reason: String,
+}
+
 /// A condition that holds on every state that occurs.
 #[derive(Debug, Clone)]
 pub struct Assumption {
@@ -190,6 +237,8 @@ pub struct Case {
     pub errata: Vec<Erratum>,
     /// Inputs with the expected result; every executor runs them.
     pub examples: Vec<Example>,
+    /// Findings about this row that are known and stay.
+    pub allow: Vec<Allow>,
 }
 
 /// How a row is decided and what it returns.
@@ -264,20 +313,27 @@ impl Table {
 
 /// Reads a UTF-8 file of bounded size, with errors that say what to do.
 pub(crate) fn read_text(path: &Path, max: u64) -> Result<String, Failure> {
-    let name = path.to_string_lossy().replace('\\', "/");
-    let fail =
-        |message: &str, help: &str| Failure::bare(&*name, Diagnostic::error(codes::UNREADABLE, message).help(help));
-    let metadata = std::fs::metadata(path)
-        .map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions"))?;
+    String::from_utf8(read_bytes(path, max)?).map_err(|e| unreadable(path, &not_utf8(&e), "save it as UTF-8"))
+}
+
+/// Reads a file of bounded size, with errors that say what to do.
+pub(crate) fn read_bytes(path: &Path, max: u64) -> Result<Vec<u8>, Failure> {
+    let io = |e: std::io::Error| {
+        unreadable(path, &format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions")
+    };
+    let metadata = std::fs::metadata(path).map_err(io)?;
     if metadata.is_dir() {
-        return Err(fail("is a directory, a file was expected", "name the file itself"));
+        return Err(unreadable(path, "is a directory, a file was expected", "name the file itself"));
     }
     if metadata.len() > max {
-        return Err(fail(&format!("is larger than {} MiB", max >> 20), "split it"));
+        return Err(unreadable(path, &format!("is larger than {} MiB", max >> 20), "split it"));
     }
-    let bytes = std::fs::read(path)
-        .map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions"))?;
-    String::from_utf8(bytes).map_err(|e| fail(&not_utf8(&e), "save it as UTF-8"))
+    std::fs::read(path).map_err(io)
+}
+
+fn unreadable(path: &Path, message: &str, help: &str) -> Failure {
+    let name = path.to_string_lossy().replace('\\', "/");
+    Failure::bare(name, Diagnostic::error(codes::UNREADABLE, message).help(help))
 }
 
 /// Says that bytes are not text, and where.

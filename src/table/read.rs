@@ -9,8 +9,8 @@ use serde::Deserialize;
 use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
 use super::raw::{Raw, RawMap, Reader, Shape};
 use super::{
-    Assumption, Case, CaseBody, Domain, Erratum, Example, HitPolicy, Image, Input, LANGUAGE, Level, Line, Named,
-    Output, Symmetry, Table,
+    Allow, Assumption, Case, CaseBody, Continuity, ContinuityKind, Domain, Erratum, Example, HitPolicy, Image, Input,
+    LANGUAGE, Level, Line, Named, Output, Symmetry, Table,
 };
 use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
 use std::sync::Arc;
@@ -37,9 +37,17 @@ struct TableRon<'a> {
     symmetries: RawMap<'a>,
     #[serde(default = "RawMap::empty")]
     assume: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    draw: RawMap<'a>,
     output: Raw<'a>,
     cases: Vec<Raw<'a>>,
     default: Raw<'a>,
+    #[serde(default = "RawMap::empty")]
+    continuity: RawMap<'a>,
+    #[serde(default)]
+    allow: Vec<Raw<'a>>,
+    #[serde(default)]
+    exhibit: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -108,6 +116,33 @@ struct SymmetryRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
+enum ContinuityRon<'a> {
+    Border {
+        #[serde(borrow)]
+        when: Raw<'a>,
+        map: RawMap<'a>,
+        #[serde(default)]
+        free: Vec<Raw<'a>>,
+        #[serde(default)]
+        doc: String,
+    },
+    Switch {
+        of: Vec<Raw<'a>>,
+        #[serde(default)]
+        doc: String,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Allow", deny_unknown_fields)]
+struct AllowRon<'a> {
+    #[serde(borrow)]
+    code: Raw<'a>,
+    reason: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 enum OutputRon<'a> {
     Number {
         #[serde(default)]
@@ -149,6 +184,8 @@ struct CaseRon<'a> {
     errata: Vec<ErratumRon>,
     #[serde(default)]
     examples: Vec<Raw<'a>>,
+    #[serde(default)]
+    allow: Vec<Raw<'a>>,
 }
 
 #[derive(Deserialize)]
@@ -197,9 +234,12 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     let names = errors.each(ron.names.0, |(n, v)| Ok(Named { name: read.word(n)?, value: read.condition(v)? }));
     let symmetries = errors.each(ron.symmetries.0, |(n, v)| read.symmetry(n, v));
     let assumptions = errors.each(ron.assume.0, |(n, v)| read.assumption(n, v));
+    let draw = errors.each(ron.draw.0, |(n, v)| read.draw(n, v));
     let output = errors.take(read.output(ron.output));
     let cases = errors.each(ron.cases, |raw| read.case(raw));
     let default = errors.take(read.expr(ron.default));
+    let continuity = errors.each(ron.continuity.0, |(n, v)| read.continuity(n, v));
+    let allow = errors.each(ron.allow, |raw| read.allow(raw));
     match (name, hit_policy, output, default) {
         (Some(name), Some(hit_policy), Some(output), Some(default)) if errors.0.is_empty() => Ok(Table {
             source: source.clone(),
@@ -212,9 +252,13 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
             names,
             symmetries,
             assumptions,
+            draw,
             output,
             cases,
             default,
+            continuity,
+            allow,
+            exhibit: ron.exhibit,
         }),
         _ => Err(errors.0),
     }
@@ -397,6 +441,30 @@ impl<'a> Reader<'a> {
         Ok(Assumption { name, condition: self.condition(condition)?, doc })
     }
 
+    fn continuity(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Continuity> {
+        let words = |list: Vec<Raw<'a>>| list.into_iter().map(|w| self.word(w)).collect::<Result<Vec<_>>>();
+        let (kind, doc) = match self.get::<ContinuityRon<'a>>(raw)? {
+            ContinuityRon::Border { when, map, free, doc } => {
+                let map = map.0.iter().map(|(n, i)| Ok((self.word(*n)?, self.image(*i)?))).collect::<Result<_>>()?;
+                (ContinuityKind::Border { when: self.condition(when)?, map, free: words(free)? }, doc)
+            }
+            ContinuityRon::Switch { of, doc } => (ContinuityKind::Switch(words(of)?), doc),
+        };
+        Ok(Continuity { name: self.word(name)?, kind, doc })
+    }
+
+    /// `(code: "U0508", reason: "the text orders them so")`
+    fn allow(&self, raw: Raw<'a>) -> Result<Allow> {
+        let ron: AllowRon<'a> = self.get(raw)?;
+        let allow = Allow { span: self.span(raw), code: self.spanned(ron.code)?, reason: ron.reason };
+        if allow.reason.trim().is_empty() {
+            return Err(Diagnostic::error(codes::STRUCTURE, "`allow` without a reason")
+                .at(allow.span, "the reason is empty")
+                .help("say why the finding stays: (code: \"U0508\", reason: \"the source orders them so\")"));
+        }
+        Ok(allow)
+    }
+
     fn output(&self, raw: Raw<'a>) -> Result<Spanned<Output>> {
         let span = self.span(raw);
         let output = match self.get::<OutputRon<'a>>(raw)? {
@@ -465,7 +533,8 @@ impl<'a> Reader<'a> {
         };
         let errata = ron.errata.into_iter().map(|e| Erratum { number: e.no, printed: e.printed, meant: e.meant });
         let examples = ron.examples.into_iter().map(|e| self.example(e)).collect::<Result<_>>()?;
-        Ok(Case { id, span, section: ron.section, doc: ron.doc, body, errata: errata.collect(), examples })
+        let allow = ron.allow.into_iter().map(|a| self.allow(a)).collect::<Result<_>>()?;
+        Ok(Case { id, span, section: ron.section, doc: ron.doc, body, errata: errata.collect(), examples, allow })
     }
 
     /// `("px + py - 1", "NB == left")`: a value and when it applies.

@@ -8,15 +8,18 @@ use super::scope::Env;
 use super::terms::{Term, type_error};
 use super::{Lowering, Result};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
-use crate::program::{InputId, LevelTerm, Symmetry};
+use crate::program::{self, Continuity, ExprId, InputId, LevelTerm, Symmetry};
 use crate::table::expr::Expr;
-use crate::table::{self, Image, names};
+use crate::table::{self, ContinuityKind, Image, names};
+
+/// The images of discrete and of continuous inputs.
+type MappedInputs = (Vec<(InputId, LevelTerm)>, Vec<(InputId, ExprId)>);
 
 impl<'t> Lowering<'t> {
     /// What each mapped input becomes under a symmetry.
-    pub(super) fn images(&mut self, symmetry: &'t table::Symmetry, env: &Env) -> Result<HashMap<InputId, Term>> {
+    pub(super) fn images(&mut self, map: &'t [(Spanned<String>, Image)], env: &Env) -> Result<HashMap<InputId, Term>> {
         let mut images = HashMap::new();
-        for (name, image) in &symmetry.map {
+        for (name, image) in map {
             let Some(input) = self.input_named(&name.value) else {
                 return Err(self.unknown_input(name, "only inputs are mapped"));
             };
@@ -74,7 +77,58 @@ impl<'t> Lowering<'t> {
     pub(super) fn symmetry(&mut self, symmetry: &'t table::Symmetry) -> Result<Symmetry> {
         names::check_inner(&symmetry.name.value, "a symmetry", symmetry.name.span)?;
         let env = Env::default();
-        let mut images: Vec<_> = self.images(symmetry, &env)?.into_iter().collect();
+        let (levels, numbers) = self.mapped_inputs(&symmetry.map, symmetry.name.span)?;
+        let result = match &symmetry.result {
+            None => None,
+            Some(expr) => {
+                let placeholder = self.pool.result();
+                Some(self.numeric(expr, &env.with_local(&value_name(expr), Term::Number(placeholder)))?)
+            }
+        };
+        let (name, doc) = (symmetry.name.value.clone(), symmetry.doc.clone());
+        Ok(Symmetry { name, doc, levels, numbers, result, span: symmetry.name.span })
+    }
+
+    /// Places without jumps: a border is a map of the inputs with a condition.
+    pub(super) fn continuity(&mut self, continuity: &'t table::Continuity) -> Result<Continuity> {
+        let (name, span) = (&continuity.name.value, continuity.name.span);
+        names::check_inner(name, "a border or switch", span)?;
+        let (mut levels, mut numbers) = (Vec::new(), Vec::new());
+        let inputs = |names: &[Spanned<String>], allowed: &dyn Fn(InputId) -> bool, help: &str| {
+            let find = |name: &Spanned<String>| match self.input_named(&name.value) {
+                Some(input) if allowed(input) => Ok(input),
+                Some(_) => Err(Diagnostic::error(codes::SYMMETRY, format!("`{}` cannot stand here", name.value))
+                    .at(name.span, help)),
+                None => Err(self.unknown_input(name, "only inputs are listed here")),
+            };
+            names.iter().map(find).collect::<Result<Vec<_>>>()
+        };
+        let kind = match &continuity.kind {
+            ContinuityKind::Border { when, map, free } => {
+                let free = inputs(free, &|_| true, "")?;
+                let condition = self.condition(when, &Env::default())?;
+                (levels, numbers) = self.mapped_inputs(map, span)?;
+                let mapped = levels.iter().map(|(input, _)| *input).chain(numbers.iter().map(|(input, _)| *input));
+                if let Some(both) = mapped.into_iter().find(|input| free.contains(input)) {
+                    let message = format!("`{}` is mapped and free", self.inputs[both.index()].name);
+                    return Err(Diagnostic::error(codes::SYMMETRY, message)
+                        .at(span, "here")
+                        .help("a free input can be anything on the other side; name it in `map` or in `free`"));
+                }
+                program::ContinuityKind::Border(condition, free)
+            }
+            ContinuityKind::Switch(of) => {
+                let continuous = |input: InputId| self.input_sets[input.index()].is_none();
+                program::ContinuityKind::Switch(inputs(of, &continuous, "only a range can be compared")?)
+            }
+        };
+        let (name, doc) = (name.clone(), continuity.doc.clone());
+        Ok(Continuity { map: Symmetry { name, doc, levels, numbers, result: None, span }, kind })
+    }
+
+    /// What inputs are mapped to, ready for a program.
+    fn mapped_inputs(&mut self, map: &'t [(Spanned<String>, Image)], span: Span) -> Result<MappedInputs> {
+        let mut images: Vec<_> = self.images(map, &Env::default())?.into_iter().collect();
         images.sort_by_key(|(input, _)| *input);
         let (mut levels, mut numbers) = (Vec::new(), Vec::new());
         for (input, term) in images {
@@ -86,20 +140,11 @@ impl<'t> Lowering<'t> {
                     levels.push((input, LevelTerm::If(condition, one, zero)));
                 }
                 Term::Vector(_) | Term::List(_) => {
-                    return Err(Diagnostic::error(codes::SYMMETRY, "an input has a single value")
-                        .at(symmetry.name.span, "here"));
+                    return Err(Diagnostic::error(codes::SYMMETRY, "an input has a single value").at(span, "here"));
                 }
             }
         }
-        let result = match &symmetry.result {
-            None => None,
-            Some(expr) => {
-                let placeholder = self.pool.result();
-                Some(self.numeric(expr, &env.with_local(&value_name(expr), Term::Number(placeholder)))?)
-            }
-        };
-        let (name, doc) = (symmetry.name.value.clone(), symmetry.doc.clone());
-        Ok(Symmetry { name, doc, levels, numbers, result, span: symmetry.name.span })
+        Ok((levels, numbers))
     }
 
     /// Applies the result map of a symmetry.

@@ -2,6 +2,7 @@
 
 mod calls;
 mod declare;
+mod draw;
 mod examples;
 mod images;
 mod levels;
@@ -120,7 +121,9 @@ impl Lowering<'_> {
             Some(Assumption { name, condition, doc, span: assumption.condition.span })
         });
         let assumptions = assumptions.collect();
+        let draw = self.draw(errors);
         let symmetries = table.symmetries.iter().filter_map(|s| keep(self.symmetry(s), errors)).collect();
+        let continuity = table.continuity.iter().filter_map(|c| keep(self.continuity(c), errors)).collect();
         let mut examples = Vec::new();
         for (row, case) in table.cases.iter().enumerate() {
             for example in &case.examples {
@@ -147,8 +150,12 @@ impl Lowering<'_> {
             default: default?,
             output: self.output,
             assumptions,
+            draw,
             symmetries,
             examples,
+            continuity,
+            allow: table.allow.clone(),
+            exhibit: table.exhibit.clone(),
         })
     }
 }

@@ -49,6 +49,7 @@ impl<'t> Lowering<'t> {
             section: case.section.clone(),
             doc: case.doc.clone(),
             errata: case.errata.clone(),
+            allow: case.allow.clone(),
         })
     }
 
@@ -80,7 +81,7 @@ impl<'t> Lowering<'t> {
                         None => error,
                     });
                 };
-                let images = self.images(symmetry, env)?;
+                let images = self.images(&symmetry.map, env)?;
                 let inner = self.mapped_env(images, env);
                 Ok((self.condition(when, &inner)?, self.lines(lines, &inner)?, symmetry.result.clone()))
             }
