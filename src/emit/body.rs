@@ -15,17 +15,23 @@ pub(super) struct Body<'a, 'p> {
     pub(super) dialect: &'a dyn Dialect,
     pub(super) prefix: &'a Prefix,
     pub(super) names: &'a Names,
-    outline: Outline,
+    pub(super) outline: Outline,
     /// The function that is being printed.
     pub(super) text: Text,
     /// Functions that are complete, in the order in which languages want them.
-    functions: String,
+    pub(super) functions: String,
     /// The functions of shared steps.
     shared: HashMap<StepId, String>,
     /// Numbers the functions.
     count: usize,
     /// Numbers the locals that have no name in the table.
     pub(super) temporaries: usize,
+    /// What inputs are called where they are not called by their own names.
+    pub(super) renamed: HashMap<String, String>,
+    /// What the result is called in the result map of a symmetry.
+    pub(super) result: String,
+    /// Behind symmetries: the parameter that says by which of them inputs are turned.
+    pub(super) turn: Option<String>,
 }
 
 impl<'a, 'p> Body<'a, 'p> {
@@ -41,6 +47,9 @@ impl<'a, 'p> Body<'a, 'p> {
             shared: HashMap::new(),
             count: 0,
             temporaries: 0,
+            renamed: HashMap::new(),
+            result: String::new(),
+            turn: None,
         }
     }
 
@@ -88,13 +97,14 @@ impl<'a, 'p> Body<'a, 'p> {
             }
         }
         if fetches {
+            parameters.extend(self.turn.clone().map(|turn| (turn, Type::Uint)));
             parameters.push(("site".to_owned(), Type::Site));
         }
         parameters
     }
 
     /// Prints a function and returns the call of it. `selector` is a parameter beside the inputs.
-    fn function(
+    pub(super) fn function(
         &mut self,
         kind: &str,
         selector: Option<&str>,
@@ -106,16 +116,18 @@ impl<'a, 'p> Body<'a, 'p> {
         let name = self.dialect.global(self.prefix, &format!("{kind}_{}", self.count));
         let mut parameters = self.parameters(needs, fetches);
         parameters.splice(0..0, selector.map(|selector| (selector.to_owned(), Type::Uint)));
-        let outer = std::mem::take(&mut self.text);
+        let (outer, renamed) = (std::mem::take(&mut self.text), std::mem::take(&mut self.renamed));
         self.text.comment(comment);
         self.open(&name, &parameters, needs);
         fill(self);
         self.text.close();
         self.text.gap();
         self.functions += &std::mem::replace(&mut self.text, outer).finish();
-        let arguments: Vec<&str> = parameters
+        self.renamed = renamed;
+        let named = |name: &'_ String| self.renamed.get(name).unwrap_or(name).clone();
+        let arguments: Vec<String> = parameters
             .iter()
-            .map(|(name, ty)| if *ty == Type::Site { self.dialect.site_argument() } else { name })
+            .map(|(name, ty)| if *ty == Type::Site { self.dialect.site_argument().to_owned() } else { named(name) })
             .collect();
         format!("{name}({})", arguments.join(", "))
     }
@@ -157,7 +169,14 @@ impl<'a, 'p> Body<'a, 'p> {
                 }
                 Step::Fetch { input, next } => {
                     let (ident, ty) = self.names.fetched(self.plan.program, input);
-                    let call = self.dialect.fetch(self.prefix, &ident);
+                    let call = match &self.turn {
+                        Some(turn) => format!(
+                            "{}({turn}, {})",
+                            self.dialect.global(self.prefix, &format!("turned_{ident}")),
+                            self.dialect.site_argument()
+                        ),
+                        None => self.dialect.fetch(self.prefix, &ident),
+                    };
                     let line = self.dialect.local(&ty, &ident, &call, self.prefix);
                     self.text.line(line);
                     if self.outline.is_function(next) {
@@ -169,6 +188,8 @@ impl<'a, 'p> Body<'a, 'p> {
                     let selector = format!("{}(key)", self.dialect.global(self.prefix, "arm"));
                     return self.arms(&selector, 0, &arms, level);
                 }
+                Step::Coefficients { rest } => return self.coefficients(&rest, level),
+                Step::Orbit { arms } => return self.orbit(&arms),
                 Step::Leaf(leaf) => return self.leaf(&leaf),
             }
         }
@@ -216,7 +237,7 @@ impl<'a, 'p> Body<'a, 'p> {
     }
 
     /// A choice by number; the first of the arms has the number `first`.
-    fn arms(&mut self, selector: &str, first: usize, arms: &[StepId], level: usize) {
+    pub(super) fn arms(&mut self, selector: &str, first: usize, arms: &[StepId], level: usize) {
         if level + arms.len() <= MAX_LEVELS || arms.len() <= FAN_OUT {
             // The last way stands behind the choice, so that every
             // language sees that all paths return.
@@ -233,7 +254,8 @@ impl<'a, 'p> Body<'a, 'p> {
             }
             return self.step(*last, level + others.len());
         }
-        let name = if first == 0 && level == 0 { self.temporary() } else { selector.to_owned() };
+        // Only a call is worth a name.
+        let name = if selector.ends_with(')') { self.temporary() } else { selector.to_owned() };
         if name != selector {
             let local = self.dialect.local(&Type::Uint, &name, selector, self.prefix);
             self.text.line(local);

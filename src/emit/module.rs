@@ -9,10 +9,11 @@ use std::collections::HashMap;
 
 use super::body::Body;
 use super::dialect::{Dialect, Prefix, Type};
+use super::lookup;
 use super::names::{Names, fetches, input_type};
 use super::outline::MAX_LEVELS;
 use super::text::Text;
-use crate::plan::{KeyLayout, LookupPlace, Plan, Proved, Shape};
+use crate::plan::{KeyLayout, Plan, Proved};
 use crate::program::{BinaryOp, Domain, Levels, Node, Program};
 
 /// Writes the module of a plan.
@@ -56,6 +57,22 @@ impl Writer<'_, '_> {
         }
         text.comment(&format!("Table:  {}, {} cases", program.fingerprint(), program.rows.len()));
         text.comment(&format!("Plan:   {}", self.plan.shape));
+        if let Some(weighed) = &self.plan.weighed {
+            text.comment(&format!("Weight: {weighed}"));
+        }
+        if let Some(certificate) = &self.plan.certificate {
+            text.comment(&format!("Cost:   {certificate}"));
+        }
+        for note in &self.plan.notes {
+            text.comment(&format!("Note:   {note}"));
+        }
+        if self.plan.assumed {
+            let names: Vec<&str> = program.assumptions.iter().map(|a| a.name.as_str()).collect();
+            text.comment(&format!(
+                "Assume: {}; anything may come out where one of them does not hold",
+                names.join(", ")
+            ));
+        }
         text.comment(&format!("Proof:  {}", proved.proof()));
         text.gap();
     }
@@ -159,10 +176,10 @@ impl Writer<'_, '_> {
 
     /// Two functions: the word of the lookup that holds a key's arm, and the arm.
     fn lookup(&mut self) {
-        let words = lookup_words(self.plan);
-        let per_word = entries_per_word(self.plan);
+        let words = lookup::words(self.plan, self.names.default);
+        let per_word = lookup::entries_per_word(self.plan);
         let bits = 32 / per_word;
-        if self.plan.shape == Shape::Switch(LookupPlace::Constants) {
+        if !self.plan.shape.reads_buffer() {
             self.text.comment("The lookup, packed; the commonest word stands last.");
             self.lookup_constants("lookup", 0, &words);
         } else {
@@ -332,30 +349,7 @@ fn uses_remainder(plan: &Plan<'_>) -> bool {
     plan.pool.nodes().any(|node| matches!(node, Node::Binary(BinaryOp::Remainder, ..)))
 }
 
-/// Entries of the lookup per word: arms are stored in 8 or 16 bits.
-fn entries_per_word(plan: &Plan<'_>) -> u32 {
-    if plan.lookup.iter().all(|arm| *arm < 256) { 4 } else { 2 }
-}
-
-/// The words of a plan's lookup, by key: the arms of consecutive keys, the
-/// lowest key in the lowest bits. Keys that are no state hold the commonest
-/// arm. Empty for plans without a lookup.
+/// The words that a plan's lookup consists of; empty for plans without one.
 pub fn lookup_words(plan: &Plan<'_>) -> Vec<u32> {
-    if plan.lookup.is_empty() {
-        return Vec::new();
-    }
-    let mut counts = vec![0_usize; plan.lookup.iter().copied().max().map_or(0, usize::from) + 1];
-    plan.lookup.iter().for_each(|arm| counts[usize::from(*arm)] += 1);
-    let commonest = (0..counts.len()).max_by_key(|arm| counts[*arm]).unwrap_or_default() as u32;
-    let per_word = entries_per_word(plan);
-    let bits = 32 / per_word;
-    let entries = 1_usize << plan.key.bits();
-    let mut arms = vec![commonest; entries.max(per_word as usize)];
-    let program = plan.program;
-    let mut levels = vec![0; program.inputs.len()];
-    for (state, arm) in plan.lookup.iter().enumerate() {
-        program.states.write(state, &mut levels);
-        arms[plan.key.pack(|input| levels[input.index()]) as usize] = u32::from(*arm);
-    }
-    arms.chunks(per_word as usize).map(|chunk| chunk.iter().rev().fold(0, |word, arm| word << bits | arm)).collect()
+    lookup::words(plan, Names::new(plan.program).default)
 }

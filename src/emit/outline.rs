@@ -57,7 +57,11 @@ impl Outline {
                     this.needs = this.needs.minus(InputSet::one(*input));
                     this.fetches = true;
                 }
-                Step::Switch { .. } => {}
+                Step::Coefficients { .. } => {
+                    let inputs = plan.coefficients.inputs.iter();
+                    this.needs = inputs.fold(this.needs, |needs, input| needs.or(InputSet::one(*input)));
+                }
+                Step::Switch { .. } | Step::Orbit { .. } => {}
                 Step::Leaf(leaf) => {
                     for value in &leaf.values {
                         this.needs = this.needs.or(plan.pool.expr_facts(*value).inputs);

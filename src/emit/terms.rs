@@ -13,7 +13,7 @@ use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKin
 const MAX_NESTING: usize = 24;
 
 /// The locals in sight: expressions that already have a name.
-type Locals = HashMap<ExprId, String>;
+pub(super) type Locals = HashMap<ExprId, String>;
 
 impl Body<'_, '_> {
     pub(super) fn leaf(&mut self, leaf: &Leaf) {
@@ -157,16 +157,19 @@ impl Body<'_, '_> {
         order.push(expr);
     }
 
-    fn expr(&self, expr: ExprId, locals: &Locals) -> String {
+    pub(super) fn expr(&self, expr: ExprId, locals: &Locals) -> String {
         if let Some(name) = locals.get(&expr) {
             return name.clone();
         }
         let of = |e: ExprId| self.expr(e, locals);
         match self.plan.pool.node(expr) {
             Node::Const(number) => self.dialect.number(number.get()),
-            Node::Input(input) => self.plan.program.inputs[input.index()].ident.clone(),
-            // Occurs in the result map of a symmetry only, which is not part of any plan.
-            Node::Result => String::new(),
+            Node::Input(input) => {
+                let ident = &self.plan.program.inputs[input.index()].ident;
+                self.renamed.get(ident).unwrap_or(ident).clone()
+            }
+            // In the result map of a symmetry.
+            Node::Result => self.result.clone(),
             Node::Unary(op, a) => self.dialect.unary(op, &of(a)),
             Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
             Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),

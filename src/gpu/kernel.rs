@@ -9,7 +9,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::harness::{COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, wgsl_columns};
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
 use crate::eval::Columns;
-use crate::plan::{KeyLayout, LookupPlace, Proved, Shape};
+use crate::plan::{KeyLayout, Proved};
 use crate::program::{Domain, InputId, InputSet, LevelKind, Program};
 
 /// Most rows of one dispatch.
@@ -78,7 +78,7 @@ impl<'a, 'p> Kernel<'a, 'p> {
             source: wgpu::ShaderSource::Naga(Cow::Owned(module.module)),
         });
         let layout = Layout::new(program, entry);
-        let has_lookup = proved.plan().shape == Shape::Switch(LookupPlace::Buffer);
+        let has_lookup = proved.plan().shape.reads_buffer();
         // Written down rather than derived from the shader, which may leave out what no case uses.
         let mut bindings = vec![(0, true), (2, false)];
         bindings.extend((layout.fetched > 0).then_some((1, true)));

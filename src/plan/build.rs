@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use super::key::KeyLayout;
 use super::knowledge::Knowledge;
 use super::setting::Setting;
-use super::{Leaf, LookupPlace, Plan, Shape, Step, StepId};
+use super::{Coefficients, Leaf, LookupPlace, Plan, Shape, Step, StepId};
 use crate::program::claims::Claims;
 use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
 
@@ -21,7 +21,7 @@ const MAX_STEPS: usize = 200_000;
 const MAX_DEPTH: usize = 400;
 /// Most entries of a lookup in constants, and in a buffer.
 const MAX_CONSTANT_KEYS: u32 = 12;
-const MAX_BUFFER_KEYS: u32 = 24;
+pub(super) const MAX_BUFFER_KEYS: u32 = 24;
 
 pub(super) type Result<T> = std::result::Result<T, String>;
 /// Rows that may be taken, with what is left of their guards.
@@ -139,12 +139,20 @@ impl<'p> Builder<'p> {
             assumed: false,
             weighed: None,
             certificate: None,
+            notes: Vec::new(),
             pool: self.pool,
             key,
             lookup,
+            coefficients: Coefficients::default(),
+            symmetries: Vec::new(),
             steps: self.steps,
             root,
         }
+    }
+
+    /// A step that was made.
+    pub(super) fn step(&self, id: StepId) -> &Step {
+        &self.steps[id.0 as usize]
     }
 
     pub(super) fn push(&mut self, step: Step) -> Result<StepId> {

@@ -7,15 +7,19 @@
 
 mod build;
 mod chain;
+mod coefficients;
 mod key;
 mod knowledge;
+mod orbit;
 mod order;
 pub mod prove;
+mod prove_real;
 mod reachable;
 mod rounding;
 mod route;
 mod setting;
 mod tree;
+mod turn;
 mod weights;
 
 use std::fmt;
@@ -23,10 +27,12 @@ use std::fmt;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
+pub use coefficients::{Coefficients, Fit, Form, Piece};
 pub use key::KeyLayout;
 pub use order::Certificate;
 pub use prove::{Counterexample, Proof, Refusal};
 pub use reachable::reachable;
+pub(crate) use turn::{Turn, renamed};
 pub use weights::Weights;
 
 use setting::Setting;
@@ -44,6 +50,10 @@ pub enum Shape {
     Tree,
     /// The packed key selects the case through a lookup, then a `switch`.
     Switch(LookupPlace),
+    /// The key selects coefficients of a minimum or maximum of sums: no branch.
+    Coefficients,
+    /// Symmetries turn the inputs into those of few cases, whose result is turned back.
+    Orbit,
 }
 
 /// Where a `switch` finds the case of a key.
@@ -57,13 +67,15 @@ pub enum LookupPlace {
 
 impl Shape {
     /// Every shape, in the order of reports.
-    pub const ALL: [Shape; 6] = [
+    pub const ALL: [Shape; 8] = [
         Shape::Ladder,
         Shape::Ordered,
         Shape::Nested,
         Shape::Tree,
         Shape::Switch(LookupPlace::Constants),
         Shape::Switch(LookupPlace::Buffer),
+        Shape::Coefficients,
+        Shape::Orbit,
     ];
 
     /// The name on the command line and in file names.
@@ -75,7 +87,20 @@ impl Shape {
             Shape::Tree => "tree",
             Shape::Switch(LookupPlace::Constants) => "switch",
             Shape::Switch(LookupPlace::Buffer) => "switch_buffer",
+            Shape::Coefficients => "coefficients",
+            Shape::Orbit => "orbit",
         }
+    }
+
+    /// Whether its code reads a buffer of the host, which holds the lookup.
+    pub fn reads_buffer(self) -> bool {
+        matches!(self, Shape::Switch(LookupPlace::Buffer) | Shape::Coefficients | Shape::Orbit)
+    }
+
+    /// Whether the case it reports is the one that the table takes. A plan
+    /// that turns inputs reports the case that it evaluated.
+    pub fn reports_case(self) -> bool {
+        self != Shape::Orbit
     }
 
     /// The shape with a name.
@@ -136,6 +161,19 @@ pub enum Step {
         /// The ways.
         arms: Vec<StepId>,
     },
+    /// The result that coefficients give, or one of the other ways, as the lookup
+    /// says: the coefficients come first in its numbering; only at the root.
+    Coefficients {
+        /// The ways of states without coefficients.
+        rest: Vec<StepId>,
+    },
+    /// Turns the inputs by symmetries, goes one of the ways, turns the result back.
+    /// The lowest bits of the lookup say by which symmetries, the others which way;
+    /// only at the root.
+    Orbit {
+        /// The ways.
+        arms: Vec<StepId>,
+    },
     /// The result.
     Leaf(Leaf),
 }
@@ -146,7 +184,7 @@ impl Step {
         match self {
             Step::Test { then, other, .. } => vec![*then, *other],
             Step::Fetch { next, .. } => vec![*next],
-            Step::Switch { arms } => arms.clone(),
+            Step::Switch { arms } | Step::Coefficients { rest: arms } | Step::Orbit { arms } => arms.clone(),
             Step::Leaf(_) => Vec::new(),
         }
     }
@@ -180,8 +218,15 @@ pub struct Plan<'p> {
     pub pool: Pool,
     /// How the discrete inputs are packed into a key.
     pub key: KeyLayout,
-    /// For [`Step::Switch`]: the arm of every state, by [`StateSpace`](crate::program::StateSpace) number.
+    /// What the lookup says of every state, by [`StateSpace`](crate::program::StateSpace) number; empty if there is none.
     pub lookup: Vec<u16>,
+    /// For [`Step::Coefficients`].
+    pub coefficients: Coefficients,
+    /// For [`Step::Orbit`]: the symmetries that inputs are turned by, one after
+    /// the other, as indices into [`Program::symmetries`].
+    pub symmetries: Vec<usize>,
+    /// Facts that are worth knowing, for headers and summaries.
+    pub notes: Vec<String>,
     steps: Vec<Step>,
     root: StepId,
 }
@@ -201,6 +246,8 @@ impl<'p> Plan<'p> {
                 Shape::Nested => chain::nested(&setting),
                 Shape::Tree => tree::tree(&setting),
                 Shape::Switch(_) => build::switch(&setting, shape),
+                Shape::Coefficients => coefficients::plan(&setting),
+                Shape::Orbit => orbit::plan(&setting),
             };
             let weighed = setting.weights.map(|weights| weights.origin().to_owned());
             plan.map(|plan| Plan { assumed: options.assume, weighed, ..plan })
@@ -242,6 +289,14 @@ impl<'p> Plan<'p> {
         self.root
     }
 
+    /// The input that a step fetches.
+    pub fn fetch_of(&self, step: StepId) -> Option<InputId> {
+        match self.step(step) {
+            Step::Fetch { input, .. } => Some(*input),
+            _ => None,
+        }
+    }
+
     /// The steps that evaluation can come to, each after all that follow it.
     pub fn reachable(&self) -> Vec<StepId> {
         let mut order = Vec::new();
@@ -258,6 +313,13 @@ impl<'p> Plan<'p> {
         }
         order
     }
+}
+
+/// Whether a plan was not made, or not proved, because it does not suit its
+/// table: another one may.
+pub fn is_unsuitable(failure: &Failure) -> bool {
+    let code = failure.diagnostics.first().map(|diagnostic| diagnostic.code);
+    code == Some(codes::NOT_APPLICABLE) || code == Some(codes::PROOF_TOO_LONG)
 }
 
 /// A plan that was proved equal to its program.

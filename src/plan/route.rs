@@ -89,7 +89,11 @@ impl Router<'_, '_> {
                     self.open.extend(ways);
                     return;
                 }
-                Step::Test { .. } | Step::Fetch { .. } | Step::Leaf(_) => {
+                Step::Test { .. }
+                | Step::Fetch { .. }
+                | Step::Coefficients { .. }
+                | Step::Orbit { .. }
+                | Step::Leaf(_) => {
                     for state in states.into_iter().filter(|state| self.owner[*state] == group) {
                         self.starts[state] = at;
                     }

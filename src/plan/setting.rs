@@ -4,6 +4,7 @@ use super::reachable::reachable;
 use super::{PlanOptions, Weights};
 use crate::program::Program;
 use crate::program::claims::Claims;
+use crate::program::symbolic::{Machine, View};
 
 /// The program, its states, and their weights.
 pub(super) struct Setting<'p, 'w> {
@@ -14,6 +15,7 @@ pub(super) struct Setting<'p, 'w> {
     /// The share of each of them.
     pub(super) shares: Vec<f64>,
     claims: Option<Claims>,
+    assume: bool,
 }
 
 impl<'p, 'w> Setting<'p, 'w> {
@@ -40,7 +42,20 @@ impl<'p, 'w> Setting<'p, 'w> {
             return Err("no state that the assumptions allow has a weight".to_owned());
         }
         let shares = states.iter().map(|state| weight(state) / sum).collect();
-        Ok(Self { program, weights: options.weights, states, shares, claims: Claims::new(program) })
+        Ok(Self {
+            program,
+            weights: options.weights,
+            states,
+            shares,
+            claims: Claims::new(program),
+            assume: options.assume,
+        })
+    }
+
+    /// Whether the path of a machine is one that counts.
+    pub(super) fn assumptions_hold(&self, machine: &mut Machine<'_>) -> bool {
+        let mut assumptions = self.program.assumptions.iter();
+        !self.assume || assumptions.all(|assumption| machine.holds(assumption.condition, View::PLAIN))
     }
 
     /// The claims on every state.

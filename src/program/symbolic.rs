@@ -142,11 +142,6 @@ impl<'p> Machine<'p> {
         &mut self.pool
     }
 
-    /// The levels of the state, by input.
-    pub(crate) fn levels(&self) -> &[u8] {
-        &self.levels
-    }
-
     /// Whether the last state had more paths than were followed.
     pub(crate) fn gave_up(&self) -> bool {
         self.gave_up
@@ -447,6 +442,16 @@ impl<'p> Machine<'p> {
             Some(row) => (Some(row), self.row_values(row, view)),
             None => (None, program.default.iter().map(|value| self.resolve(*value, view)).collect()),
         }
+    }
+
+    /// The row taken, its line, and the result on this path.
+    pub(crate) fn run_to_line(&mut self) -> (Option<usize>, Option<usize>, Vec<ExprId>) {
+        let program = self.program;
+        let row = program.rows.iter().position(|row| self.holds(row.guard, View::PLAIN));
+        let lines = row.map_or(&[][..], |row| &program.rows[row].lines);
+        let line = lines.iter().position(|line| self.holds(line.condition, View::PLAIN));
+        let values = line.map_or(&program.default, |line| &lines[line].values);
+        (row, line, values.iter().map(|value| self.resolve(*value, View::PLAIN)).collect())
     }
 
     /// The path in table notation: the state, then what was asked.
