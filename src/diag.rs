@@ -146,6 +146,19 @@ pub mod codes {
     pub const NOT_FINITE: Code = Code("U0208");
     pub const CIRCULAR_NAME: Code = Code("U0209");
 
+    // Functions of a table.
+    pub const RECURSION: Code = Code("U0210");
+    pub const TOO_MANY_TERMS: Code = Code("U0211");
+    pub const NOT_CONSTANT: Code = Code("U0212");
+    pub const IMPORT: Code = Code("U0213");
+    pub const FUNCTION_SHAPE: Code = Code("U0214");
+    pub const PARAMETER: Code = Code("U0215");
+    pub const NO_FUNCTION: Code = Code("U0216");
+    pub const OUTPUTS: Code = Code("U0217");
+    pub const OUTSIDE_DOMAIN: Code = Code("U0218");
+    pub const LIMIT_BROKEN: Code = Code("U0219");
+    pub const BUDGET_EXCEEDED: Code = Code("U0220");
+
     // Names and declarations.
     pub const BAD_NAME: Code = Code("U0301");
     pub const RESERVED_NAME: Code = Code("U0302");
@@ -189,6 +202,7 @@ pub mod codes {
     pub const POLE: Code = Code("U0552");
     pub const CANCELS: Code = Code("U0553");
     pub const OVERFLOW: Code = Code("U0554");
+    pub const NO_FUNCTIONS: Code = Code("U0555");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");
@@ -202,6 +216,7 @@ pub mod codes {
     pub const EMPTY_PROFILE: Code = Code("U0613");
     pub const OLD_PROFILE: Code = Code("U0614");
     pub const EXCLUDED_STATE: Code = Code("U0615");
+    pub const BAD_TUNED: Code = Code("U0616");
 
     // Values given to a table.
     pub const BAD_COLUMN: Code = Code("U0701");

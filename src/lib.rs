@@ -24,6 +24,8 @@
 //! ```
 
 pub mod analyse;
+#[cfg(feature = "report")]
+pub mod atlas;
 pub mod build;
 pub mod capture;
 #[cfg(feature = "cli")]
@@ -44,4 +46,9 @@ pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;
 pub mod show;
+#[cfg(feature = "precise")]
+pub mod stabilise;
 pub mod table;
+#[cfg(feature = "gpu")]
+pub mod tune;
+pub mod tuned;

@@ -22,7 +22,7 @@ pub use examples::agrees;
 pub use levels::{FINDINGS, Findings, Level, Levels};
 pub use overlap::{Overlap, overlaps};
 #[cfg(feature = "precise")]
-pub use singular::{Singularity, singularities};
+pub use singular::{Singularity, domain_points, singularities};
 pub use symmetry::{Violation, admissible, violations, violations_under};
 
 /// Every analysis that can find something wrong, in the order in which findings are shown.

@@ -5,6 +5,8 @@
 //! output, messages to standard error.
 
 mod answers;
+#[cfg(feature = "report")]
+mod atlas;
 mod build;
 mod check;
 mod columns;
@@ -18,6 +20,9 @@ mod levels;
 mod output;
 mod profile;
 mod report;
+mod stabilise;
+#[cfg(feature = "gpu")]
+mod tune;
 
 use std::io;
 use std::process::ExitCode;
@@ -46,6 +51,9 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Draw every case of a table
+    #[cfg(feature = "report")]
+    Atlas(atlas::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -59,6 +67,11 @@ enum Command {
     Explain(explain::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Rewrite formulas that divide by zero or lose their digits
+    Stabilise(stabilise::Arguments),
+    /// Measure every plan of a table on this device, and keep the best
+    #[cfg(feature = "gpu")]
+    Tune(tune::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -124,6 +137,8 @@ pub fn main() -> ExitCode {
     };
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
+        #[cfg(feature = "report")]
+        Command::Atlas(arguments) => atlas::run(&arguments),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
@@ -131,6 +146,9 @@ pub fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Tune(arguments) => tune::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,

@@ -221,7 +221,7 @@ impl<'a, 'p> Body<'a, 'p> {
                 me.chain(part, level + nested + 1);
                 let output = &me.plan.program.output;
                 let zero = if output.is_integer() { me.dialect.uint(0) } else { me.dialect.number(0.0) };
-                let value = me.dialect.value(output, &vec![zero; output.components()]);
+                let value = me.dialect.value(me.prefix, output, &vec![zero; output.components()]);
                 let result = me.dialect.result(me.prefix, &value, &miss);
                 me.text.line(format!("return {result};"));
             });

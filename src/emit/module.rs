@@ -14,7 +14,7 @@ use super::names::{Names, fetches, input_type};
 use super::outline::MAX_LEVELS;
 use super::text::Text;
 use crate::plan::{KeyLayout, Plan, Proved};
-use crate::program::{BinaryOp, Domain, Levels, Node, Program};
+use crate::program::{BinaryOp, Domain, Levels, Node, Output, Program, UnaryOp};
 
 /// Writes the module of a plan.
 pub(super) fn write(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
@@ -94,15 +94,24 @@ impl Writer<'_, '_> {
         let name = self.dialect.global_constant(&self.prefix, "DEFAULT");
         self.text.line(self.dialect.constant(&name, self.names.default));
         self.text.gap();
+        if let Output::Record(names) = &program.output {
+            self.text.comment("The result.");
+            self.text.line(self.dialect.value_struct(&self.prefix, names));
+            self.text.gap();
+        }
         self.text.comment("The result and the number of the case that gave it.");
         self.text.line(self.dialect.result_struct(&self.prefix, &program.output));
         self.text.gap();
-        if uses_remainder(self.plan) {
+        if uses(self.plan, |node| matches!(node, Node::Binary(BinaryOp::Remainder, ..))) {
             let helper = self.dialect.remainder(&self.prefix);
             if !helper.is_empty() {
                 self.text.line(helper);
                 self.text.gap();
             }
+        }
+        if uses(self.plan, |node| matches!(node, Node::Unary(UnaryOp::PortableSin | UnaryOp::PortableCos, _))) {
+            self.text.line(self.dialect.sincos(&self.prefix));
+            self.text.gap();
         }
         for set in self.names.sets.clone() {
             self.level_function(&set.name, &set.levels);
@@ -344,9 +353,9 @@ fn describe_key(program: &Program, key: &KeyLayout) -> String {
     fields.collect::<Vec<_>>().join(", ")
 }
 
-/// Whether a remainder is computed anywhere.
-fn uses_remainder(plan: &Plan<'_>) -> bool {
-    plan.pool.nodes().any(|node| matches!(node, Node::Binary(BinaryOp::Remainder, ..)))
+/// Whether some operation occurs anywhere.
+fn uses(plan: &Plan<'_>, operation: impl Fn(Node) -> bool) -> bool {
+    plan.pool.nodes().any(operation)
 }
 
 /// The words that a plan's lookup consists of; empty for plans without one.

@@ -71,7 +71,7 @@ impl Body<'_, '_> {
                 }
             });
         }
-        let value = self.dialect.value(&plan.program.output, &values);
+        let value = self.dialect.value(self.prefix, &plan.program.output, &values);
         let result = self.dialect.result(self.prefix, &value, &word(self, 0));
         self.text.line(format!("return {result};"));
         if !rest.is_empty() {

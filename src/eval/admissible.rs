@@ -24,7 +24,7 @@
 //!   they are left out: the host has followed the exact one and cannot supply
 //!   what it never produced.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
 use super::interval::Interval;
 use super::{Interpreter, NeedsFetch};
@@ -112,12 +112,16 @@ pub struct IntervalInterpreter<'p> {
     fetched: Cell<InputSet>,
     /// How far every continuous input may be off.
     slack: f64,
+    /// What operations came to in this evaluation, so that what is shared is computed once.
+    known: RefCell<Vec<Option<Interval>>>,
 }
 
 impl<'p> IntervalInterpreter<'p> {
     /// An interpreter of `program`.
     pub fn new(program: &'p Program) -> Self {
+        let known = RefCell::new(vec![None; program.pool.len()]);
         Self {
+            known,
             program,
             exact: Interpreter::new(program),
             point: Vec::new(),
@@ -151,6 +155,8 @@ impl<'p> IntervalInterpreter<'p> {
         self.choices.clear();
         let mut all = Admissible { outcomes: Vec::new(), everything: false };
         let (mut forks, mut checked) = (0, false);
+        self.known.get_mut().fill(None);
+        self.fetched.set(InputSet::default());
         loop {
             match self.evaluate() {
                 Ok(possible) => all.add(possible),
@@ -177,12 +183,13 @@ impl<'p> IntervalInterpreter<'p> {
                 }
                 Some((_, taken)) => *taken = false,
             }
+            self.known.get_mut().fill(None);
+            self.fetched.set(InputSet::default());
         }
     }
 
     /// Follows [`Interpreter::evaluate`] under the choices made so far.
     fn evaluate(&self) -> Result<Possible, Stop> {
-        self.fetched.set(InputSet::default());
         for (index, row) in self.program.rows.iter().enumerate() {
             if !self.holds(row.guard)? {
                 continue;
@@ -252,6 +259,15 @@ impl<'p> IntervalInterpreter<'p> {
     }
 
     fn number(&self, expr: ExprId) -> Result<Interval, Stop> {
+        if let Some(known) = self.known.borrow()[expr.index()] {
+            return Ok(known);
+        }
+        let value = self.operation(expr)?;
+        self.known.borrow_mut()[expr.index()] = Some(value);
+        Ok(value)
+    }
+
+    fn operation(&self, expr: ExprId) -> Result<Interval, Stop> {
         match self.program.pool.node(expr) {
             Node::Const(number) => Ok(Interval::constant(number.get())),
             Node::Input(input) => match self.point[input.index()] {

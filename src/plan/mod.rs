@@ -18,6 +18,8 @@ mod reachable;
 mod rounding;
 mod route;
 mod setting;
+#[cfg(test)]
+mod tests;
 mod tree;
 mod turn;
 mod weights;
@@ -245,6 +247,9 @@ impl<'p> Plan<'p> {
                 Shape::Ordered => chain::ordered(&setting),
                 Shape::Nested => chain::nested(&setting),
                 Shape::Tree => tree::tree(&setting),
+                Shape::Switch(_) if program.function.is_some() && program.states.count() == 1 => {
+                    Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
+                }
                 Shape::Switch(_) => build::switch(&setting, shape),
                 Shape::Coefficients => coefficients::plan(&setting),
                 Shape::Orbit => orbit::plan(&setting),

@@ -35,8 +35,26 @@ pub enum ExprKind {
     If(Box<Expr>, Box<Expr>, Box<Expr>),
     /// `let n = a; b`.
     Let(Spanned<String>, Box<Expr>, Box<Expr>),
-    /// `[a, b]`: a list of enumeration levels.
+    /// `[a, b]`: a list of enumeration levels, or the coefficients of a polynomial.
     List(Vec<Expr>),
+    /// `f(p = a, q = b)`: a function of the table; parameters that are not given
+    /// mean what they mean here.
+    With(Spanned<String>, Vec<(Spanned<String>, Expr)>),
+    /// `F | phi = lo .. hi`: F at `hi` less F at `lo`.
+    Between(Box<Expr>, Spanned<String>, Box<Expr>, Box<Expr>),
+    /// `sum(n in nodes, term)`.
+    Sum(Spanned<String>, SumOver, Box<Expr>),
+    /// `{x: a, y: b}`: several named numbers.
+    Record(Vec<(Spanned<String>, Expr)>),
+}
+
+/// What a sum runs over.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SumOver {
+    /// The items of a list of constants.
+    Items(Spanned<String>),
+    /// The whole numbers from one constant to another, both included.
+    Range(Box<Expr>, Box<Expr>),
 }
 
 /// Operators with one operand.
