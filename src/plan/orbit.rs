@@ -8,7 +8,7 @@
 //! formula of one gives the value of another as well, one of them will do. That
 //! is where assumptions tell most.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 
 use super::build::{Builder, MAX_BUFFER_KEYS, Result};
@@ -90,7 +90,7 @@ pub(super) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
         let entry = arm << symmetries.len() | way.word;
         lookup[*state] = u16::try_from(entry).map_err(|_| "it has too many ways to go".to_owned())?;
     }
-    let unused = fill(setting, &mut lookup);
+    let unused = fill(setting, &mut lookup, &mut Server::new(setting, &builder, &symmetries, &arms));
     let count = arms.len();
     let root = builder.push(Step::Orbit { arms })?;
     let mut plan = builder.finish(Shape::Orbit, key, lookup, root);
@@ -237,41 +237,92 @@ fn merged(
     result
 }
 
-/// Lets the lookup say the same for all levels of an input on which no state
-/// that counts depends, and returns those inputs.
-fn fill(setting: &Setting<'_, '_>, lookup: &mut [u16]) -> Vec<InputId> {
-    let program = setting.program;
-    let mut known: Vec<bool> = vec![false; lookup.len()];
-    setting.states.iter().for_each(|state| known[*state] = true);
-    let mut unused = Vec::new();
-    let mut levels = vec![0; program.inputs.len()];
-    for (input, count) in program.states.digits() {
-        // The states that differ in this input only.
-        let mut groups: Vec<Vec<usize>> = Vec::new();
-        for state in 0..lookup.len() {
-            program.states.write(state, &mut levels);
-            if levels[input.index()] == 0 {
-                let of = |level| program.states.index(|i| if i == *input { level } else { levels[i.index()] });
-                groups.push((0..*count as u8).map(of).collect());
-            }
+/// Tells whether an entry of the lookup serves a state.
+struct Server<'a, 's> {
+    setting: &'a Setting<'s, 's>,
+    builder: &'a Builder<'s>,
+    symmetries: &'a [usize],
+    arms: &'a [StepId],
+    machine: Machine<'a>,
+    known: HashMap<(usize, u16), bool>,
+}
+
+impl<'a, 's> Server<'a, 's> {
+    fn new(
+        setting: &'a Setting<'s, 's>,
+        builder: &'a Builder<'s>,
+        symmetries: &'a [usize],
+        arms: &'a [StepId],
+    ) -> Self {
+        let machine = Machine::over(setting.program, &builder.pool);
+        Self { setting, builder, symmetries, arms, machine, known: HashMap::new() }
+    }
+
+    /// Only what needs no test and no fetch is looked at.
+    fn serves(&mut self, state: usize, entry: u16) -> bool {
+        if let Some(known) = self.known.get(&(state, entry)) {
+            return *known;
         }
-        let mut values: Vec<Option<u16>> = Vec::with_capacity(groups.len());
-        let alike = groups.iter().all(|group| {
-            let mut said = group.iter().filter(|state| known[**state]).map(|state| lookup[*state]);
-            let first = said.next();
-            values.push(first);
-            said.all(|entry| Some(entry) == first)
-        });
-        if !alike {
+        let (word, arm) =
+            (usize::from(entry) & ((1 << self.symmetries.len()) - 1), usize::from(entry) >> self.symmetries.len());
+        let turn = Turn::new(self.setting.program, self.machine.pool(), self.symmetries, word, state);
+        let serves = match (self.arms.get(arm).map(|step| self.builder.step(*step)), turn) {
+            (Some(Step::Leaf(leaf)), Some(turn)) => {
+                let setting = self.setting;
+                let differs = self.machine.any_path(state, |machine| {
+                    if !setting.assumptions_hold(machine) {
+                        return ControlFlow::Continue(());
+                    }
+                    let (_, want) = machine.run(View::PLAIN);
+                    let got = turn.back(machine, &leaf.values);
+                    if machine.equal(&want, &got) { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                });
+                !differs && !self.machine.gave_up()
+            }
+            _ => false,
+        };
+        self.known.insert((state, entry), serves);
+        serves
+    }
+}
+
+/// Lets the lookup say the same for all levels of an input wherever one entry
+/// serves all states that count, and returns the inputs that are then not
+/// looked at.
+fn fill(setting: &Setting<'_, '_>, lookup: &mut [u16], server: &mut Server<'_, '_>) -> Vec<InputId> {
+    let program = setting.program;
+    let mut unused: Vec<InputId> = Vec::new();
+    let mut levels = vec![0; program.inputs.len()];
+    for (input, _) in program.states.digits() {
+        // States that differ in this input and in those that are not looked at anyway.
+        let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for state in &setting.states {
+            program.states.write(*state, &mut levels);
+            let ignored = |i: InputId| i == *input || unused.contains(&i);
+            let key = program.states.index(|i| if ignored(i) { 0 } else { levels[i.index()] });
+            groups.entry(key).or_default().push(*state);
+        }
+        let mut chosen: BTreeMap<usize, u16> = BTreeMap::new();
+        for (key, group) in &groups {
+            let mut entries: Vec<u16> = group.iter().map(|state| lookup[*state]).collect();
+            entries.sort_unstable();
+            entries.dedup();
+            let serves_all = |entry: &u16| {
+                let mut others = group.iter().filter(|state| lookup[**state] != *entry);
+                others.all(|state| server.serves(*state, *entry))
+            };
+            let Some(entry) = entries.into_iter().find(serves_all) else { break };
+            chosen.insert(*key, entry);
+        }
+        if chosen.len() < groups.len() {
             continue;
         }
         unused.push(*input);
-        for (group, value) in groups.iter().zip(values) {
-            for state in group {
-                if let Some(value) = value {
-                    lookup[*state] = value;
-                    known[*state] = true;
-                }
+        for (state, entry) in lookup.iter_mut().enumerate() {
+            program.states.write(state, &mut levels);
+            let key = program.states.index(|i| if unused.contains(&i) { 0 } else { levels[i.index()] });
+            if let Some(chosen) = chosen.get(&key) {
+                *entry = *chosen;
             }
         }
     }

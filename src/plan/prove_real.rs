@@ -31,6 +31,7 @@ pub(super) fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         plan,
         proof: Proof { states: states.len(), assumed: plan.assumed, paths: 0, identical: 0, rounding: Some(0.0) },
         errors: HashMap::new(),
+        compares: compares(plan),
     };
     for state in &states {
         let turn = match plan.step(plan.root()) {
@@ -66,6 +67,17 @@ struct Prover<'a, 'p> {
     proof: Proof,
     /// Bounds of the rounding of expressions.
     errors: HashMap<ExprId, Option<f64>>,
+    /// Whether the plan compares numbers.
+    compares: bool,
+}
+
+/// Whether what follows the lookup compares numbers, or chooses between values.
+fn compares(plan: &Plan<'_>) -> bool {
+    plan.reachable().into_iter().any(|step| match plan.step(step) {
+        Step::Test { condition, .. } => plan.pool.compares(*condition),
+        Step::Leaf(leaf) => leaf.values.iter().any(|value| plan.pool.expr_facts(*value).selects),
+        Step::Fetch { .. } | Step::Switch { .. } | Step::Coefficients { .. } | Step::Orbit { .. } => false,
+    })
 }
 
 struct Run {
@@ -105,8 +117,13 @@ impl Prover<'_, '_> {
             let input = &program.inputs[input.index()].name;
             return Err((row, format!("the plan fetches `{input}`, which the table does not need here")));
         }
+        // The same values, but comparisons of turned inputs may go the other way.
+        let turned = turn.is_some_and(|turn| !turn.is_identity());
+        if turned && self.compares {
+            self.proof.rounding = None;
+        }
         if want == got.values {
-            self.proof.identical += 1;
+            self.proof.identical += usize::from(!turned);
             return Ok(());
         }
         if !machine.equal(&want, &got.values) {

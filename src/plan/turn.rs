@@ -83,6 +83,7 @@ pub(crate) struct Turn {
     pub(crate) symmetry: Symmetry,
     /// How the result is turned back, the last symmetry first.
     results: Vec<ExprId>,
+    identity: bool,
 }
 
 impl Turn {
@@ -120,6 +121,7 @@ impl Turn {
                 span: first.span,
             },
             results: Vec::new(),
+            identity: word == 0,
         };
         for (_, index) in symmetries.iter().enumerate().filter(|(bit, _)| word >> bit & 1 == 1) {
             let next = &program.symmetries[*index];
@@ -173,6 +175,11 @@ impl Turn {
                 pool.ternary(op, a, b, c)
             }
         }
+    }
+
+    /// Whether no symmetry is applied.
+    pub(super) fn is_identity(&self) -> bool {
+        self.identity
     }
 
     /// What the inputs are seen as.
