@@ -229,7 +229,7 @@ fn columns_of_functions() {
     assert!(said.err.contains("the inputs `nx`, `ny`, `nz` are missing"), "{}", said.all());
     for (arguments, message) in [
         ("eval double_product.ron --input rows.csv", "`double_product` is a table of functions"),
-        ("eval double_product.ron --function B4 --input rows.csv", "did you mean `B0`?"),
+        ("eval double_product.ron --function B4 --input rows.csv", "did you mean `B`?"),
         ("explain double_product.ron --function D --at phi0=0", "`double_product` has no function `D`"),
     ] {
         let said = place.run(arguments);
