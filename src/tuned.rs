@@ -136,7 +136,7 @@ pub struct Auto {
 impl Auto {
     /// The tuned plan if there is one for this very text of the table, else the
     /// default: `switch`, where the key is small enough for it, which does best
-    /// on most graphics processors, else `ordered`.
+    /// on most graphics processors, else `ladder`.
     pub fn of(program: &Program, tuned: Option<&Tuned>) -> Self {
         let choice = tuned.and_then(|tuned| tuned.choice(program));
         if let Some(choice) = choice
@@ -145,7 +145,7 @@ impl Auto {
             return Self { shape, assume: choice.assume, tuned: true };
         }
         let switch = Shape::Switch(LookupPlace::Constants);
-        let shape = if Plan::new(program, switch).is_ok() { switch } else { Shape::Ordered };
+        let shape = if Plan::new(program, switch).is_ok() { switch } else { Shape::Ladder };
         Self { shape, assume: false, tuned: false }
     }
 }
@@ -208,10 +208,10 @@ mod tests {
         let default = Auto { shape: Shape::Switch(LookupPlace::Constants), assume: false, tuned: false };
         assert_eq!(Auto::of(&program, None), default);
         let mut tuned = Tuned::new("d");
-        tuned.set(Choice { assume: true, ..choice("smsr", "tree+assume") });
+        tuned.set(Choice { assume: true, ..choice("smsr", "switch_buffer+assume") });
         assert_eq!(Auto::of(&program, Some(&tuned)), default, "another text of the table");
         tuned.tables[0].fingerprint = program.fingerprint();
-        let expected = Auto { shape: Shape::Tree, assume: true, tuned: true };
+        let expected = Auto { shape: Shape::Switch(LookupPlace::Buffer), assume: true, tuned: true };
         assert_eq!(Auto::of(&program, Some(&tuned)), expected);
     }
 
