@@ -32,6 +32,8 @@ mod report;
 #[cfg(feature = "render")]
 mod scenes;
 mod stabilise;
+#[cfg(feature = "report")]
+mod table_report;
 #[cfg(feature = "gpu")]
 mod tune;
 mod why;
@@ -81,6 +83,9 @@ enum Command {
     Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Put everything about a table on one page
+    #[cfg(feature = "report")]
+    Report(table_report::Arguments),
     /// Measure how far each technique is from the true shadow
     #[cfg(all(feature = "render", feature = "report"))]
     Quality(quality::Arguments),
@@ -170,6 +175,8 @@ pub fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(feature = "report")]
+        Command::Report(arguments) => table_report::run(&arguments, &report),
         #[cfg(all(feature = "render", feature = "report"))]
         Command::Quality(arguments) => quality::run(&arguments, &report),
         #[cfg(all(feature = "render", feature = "report"))]
