@@ -345,9 +345,7 @@ impl<'p, T: Real> Residual<'p, T> {
                 Ok(true) => self.number(known, then)?,
                 Ok(false) => self.number(known, other)?,
                 // Nothing is fetched on either side, so both may be computed.
-                Err(Stop::Compare(..))
-                    if known.comparisons.len() >= MAX_SPLITS && self.program.fetched.is_empty() =>
-                {
+                Err(Stop::Compare(..)) if known.comparisons.len() >= MAX_SPLITS && self.program.fetched.is_empty() => {
                     let test = self.test(known, condition)?;
                     let (then, other) = (self.number(known, then)?, self.number(known, other)?);
                     self.term(Term::Choice(test, then, other))
