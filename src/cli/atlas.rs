@@ -4,10 +4,12 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::output::Sink;
-use super::{Outcome, Result};
+use super::report::Report;
+use super::{Outcome, Result, profiled};
 use crate::atlas::{self, Atlas};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture;
+use crate::profile;
 use crate::program::Program;
 
 /// Arguments of `umbrage atlas`.
@@ -15,20 +17,28 @@ use crate::program::Program;
 pub(super) struct Arguments {
     /// The table
     table: PathBuf,
+    /// The function of a table of functions
+    #[arg(long, value_name = "NAME")]
+    function: Option<String>,
     /// Where it goes; the extension (svg, png, html) says in which form
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
+    /// Profile: how often each case is taken
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
     /// Pixels per unit of the drawing, for PNG
     #[arg(long, default_value_t = 1.5, value_name = "FACTOR")]
     scale: f32,
 }
 
 /// Draws the atlas.
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let form = Form::of(&arguments.output)?;
-    let program = Program::read(&arguments.table)?;
+    let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     let mut sink = Sink::create(&arguments.output)?;
-    let atlas = Atlas::new(&program, None)?;
+    let fitted = profiled::read(&program, arguments.profile.as_deref(), report)?;
+    let shares = fitted.map(|fitted| profile::shares(&fitted.profile, &program));
+    let atlas = Atlas::new(&program, shares.as_deref())?;
     let bytes = match form {
         Form::Svg => atlas::svg(&program, &atlas).into_bytes(),
         Form::Html => atlas::page(&program, &atlas).into_bytes(),

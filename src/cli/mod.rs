@@ -15,14 +15,28 @@ mod csv_input;
 mod diff;
 mod eval;
 mod explain;
+#[cfg(feature = "render")]
+mod frame;
 mod json_input;
 mod levels;
 mod output;
 mod profile;
+mod profiled;
+#[cfg(feature = "render")]
+mod progress;
+#[cfg(all(feature = "render", feature = "report"))]
+mod quality;
+#[cfg(all(feature = "render", feature = "report"))]
+mod render;
 mod report;
+#[cfg(feature = "render")]
+mod scenes;
 mod stabilise;
+#[cfg(feature = "report")]
+mod table_report;
 #[cfg(feature = "gpu")]
 mod tune;
+mod why;
 
 use std::io;
 use std::process::ExitCode;
@@ -37,7 +51,9 @@ use report::{Color, Format, Report};
 
 #[derive(Parser)]
 #[command(name = "umbrage", version, about = "Compiles case tables into shaders that are proved equal to the table")]
-#[command(after_help = "Exit codes: 0 clean, 1 findings, 2 failure.")]
+#[command(
+    after_help = "Exit codes: 0 clean, 1 findings, 2 failure.\nWhat a message means at length: umbrage explain CODE"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -63,10 +79,24 @@ enum Command {
     Diff(diff::Arguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
-    /// Say which case is taken at one point, why, and how its value comes about
+    /// Say which case is taken at one point, why, and how its value comes about; or what a code means
     Explain(explain::Arguments),
+    /// Say which inputs reach a case, and what lies around them
+    Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Put everything about a table on one page
+    #[cfg(feature = "report")]
+    Report(table_report::Arguments),
+    /// Measure how far each technique is from the true shadow
+    #[cfg(all(feature = "render", feature = "report"))]
+    Quality(quality::Arguments),
+    /// Render a scene with its shadows
+    #[cfg(all(feature = "render", feature = "report"))]
+    Render(render::Arguments),
+    /// List the scenes that come with Umbrage
+    #[cfg(feature = "render")]
+    Scenes,
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -138,14 +168,23 @@ pub fn main() -> ExitCode {
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
         #[cfg(feature = "report")]
-        Command::Atlas(arguments) => atlas::run(&arguments),
+        Command::Atlas(arguments) => atlas::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(feature = "report")]
+        Command::Report(arguments) => table_report::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Quality(arguments) => quality::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Render(arguments) => render::run(&arguments, &report),
+        #[cfg(feature = "render")]
+        Command::Scenes => scenes::run(&report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),

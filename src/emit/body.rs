@@ -199,7 +199,8 @@ impl<'a, 'p> Body<'a, 'p> {
     fn chain(&mut self, tests: &[(CondId, StepId)], level: usize) -> usize {
         if tests.len() <= FAN_OUT || level + tests.len() <= MAX_LEVELS {
             for (nested, (condition, then)) in tests.iter().enumerate() {
-                let locals = self.computed_constants(&[], &[*condition]);
+                let mut locals = self.computed_constants(&[], &[*condition]);
+                self.operands(*condition, &mut locals);
                 let condition = self.condition(*condition, &locals);
                 let open = self.dialect.if_open(bare(&condition));
                 self.text.open(open);

@@ -19,6 +19,7 @@ mod terms;
 mod text;
 pub mod timed;
 mod validate;
+mod values;
 mod wgsl;
 
 use crate::diag::Failure;

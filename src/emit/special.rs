@@ -9,7 +9,7 @@ use crate::plan::{StepId, Turn};
 use crate::program::{BinaryOp, InputId, InputSet, Node, TernaryOp};
 
 impl Body<'_, '_> {
-    fn declare(&mut self, ty: &Type, value: &str) -> String {
+    fn named(&mut self, ty: &Type, value: &str) -> String {
         let name = self.temporary();
         let local = self.dialect.local(ty, &name, bare(value), self.prefix);
         self.text.line(local);
@@ -18,7 +18,7 @@ impl Body<'_, '_> {
 
     fn entry(&mut self) -> String {
         let call = format!("{}(key)", self.dialect.global(self.prefix, "arm"));
-        self.declare(&Type::Uint, &call)
+        self.named(&Type::Uint, &call)
     }
 
     /// A minimum of sums whose coefficients the lookup holds, or one of the ways of `rest`.
@@ -35,7 +35,7 @@ impl Body<'_, '_> {
         let (first, stride) = (key_words(plan), stride(coefficients, components));
         let uint = |value: usize| self.dialect.uint(value as u32);
         let at = format!("{} + {entry} * {}", uint(first), self.dialect.uint(stride));
-        let at = self.declare(&Type::Uint, &at);
+        let at = self.named(&Type::Uint, &at);
         let word = |me: &Self, offset: usize| {
             me.dialect.lookup_call(me.prefix, &format!("{at} + {}", me.dialect.uint(offset as u32)))
         };
@@ -43,7 +43,7 @@ impl Body<'_, '_> {
         for component in 0..components {
             let mut offset = 1 + component * piece(coefficients);
             let sign = self.dialect.float_from_bits(&word(self, offset));
-            let sign = self.declare(&Type::Float, &sign);
+            let sign = self.named(&Type::Float, &sign);
             offset += 1;
             let mut least: Option<String> = None;
             for _ in 0..coefficients.width {
@@ -55,7 +55,7 @@ impl Body<'_, '_> {
                     sum = infix(BinaryOp::Add, &sum, &product).unwrap_or_default();
                 }
                 offset += 1 + coefficients.inputs.len();
-                let sum = self.declare(&Type::Float, &sum);
+                let sum = self.named(&Type::Float, &sum);
                 least = Some(match least {
                     None => sum,
                     Some(least) => self.dialect.binary(self.prefix, BinaryOp::Min, &least, &sum),
@@ -89,8 +89,8 @@ impl Body<'_, '_> {
         let names: Vec<&str> = plan.symmetries.iter().map(|i| program.symmetries[*i].name.as_str()).collect();
         self.text.comment(&format!("The lowest bits say which symmetries turn the inputs: {}.", names.join(", ")));
         let mask = self.dialect.uint((1 << bits) - 1);
-        let turn = self.declare(&Type::Uint, &format!("{entry} & {mask}"));
-        let way = self.declare(&Type::Uint, &format!("{entry} >> {}", self.dialect.uint(bits as u32)));
+        let turn = self.named(&Type::Uint, &format!("{entry} & {mask}"));
+        let way = self.named(&Type::Uint, &format!("{entry} >> {}", self.dialect.uint(bits as u32)));
 
         let mut about = (InputSet::default(), false);
         for arm in arms {
@@ -101,19 +101,19 @@ impl Body<'_, '_> {
         let mut flags = Vec::new();
         for (bit, index) in plan.symmetries.iter().enumerate() {
             let flag = format!("({turn} & {}) != {}", self.dialect.uint(1 << bit), self.dialect.uint(0));
-            let flag = self.declare(&Type::Bool, &flag);
+            let flag = self.named(&Type::Bool, &flag);
             let mut images = Vec::new();
             for (input, image) in &program.symmetries[*index].numbers {
                 let ident = &program.inputs[input.index()].ident;
                 if needed.contains(*input) {
                     let old = self.renamed.get(ident).unwrap_or(ident).clone();
-                    let image = self.expr(*image, &Locals::new());
+                    let image = self.expr(*image, &Locals::default());
                     images.push((ident.clone(), self.dialect.select(&flag, bare(&image), &old)));
                 }
             }
             // All images are of the old inputs.
             for (ident, image) in images {
-                let name = self.declare(&Type::Float, &image);
+                let name = self.named(&Type::Float, &image);
                 self.renamed.insert(ident, name);
             }
             flags.push(flag);
@@ -127,14 +127,14 @@ impl Body<'_, '_> {
         let call = self.function("representative", Some(&way), about, comment, |me| me.arms(&way, 0, arms, 1));
         self.turn = None;
         self.renamed.clear();
-        let result = self.declare(&Type::Result, &call);
+        let result = self.named(&Type::Result, &call);
         let mut value = format!("{result}.value");
         for (flag, index) in flags.iter().zip(&plan.symmetries).rev() {
             if let Some(map) = program.symmetries[*index].result {
                 self.result.clone_from(&value);
-                let image = self.expr(map, &Locals::new());
+                let image = self.expr(map, &Locals::default());
                 let back = self.dialect.select(flag, bare(&image), &value);
-                value = self.declare(&Type::Value(program.output.clone()), &back);
+                value = self.named(&Type::Value(program.output.clone()), &back);
             }
         }
         let result = self.dialect.result(self.prefix, &value, &format!("{result}.case_id"));
@@ -222,7 +222,7 @@ impl Body<'_, '_> {
             self.text.line(format!("return {fetch};"));
             return;
         };
-        let level = self.declare(ty, &fetch);
+        let level = self.named(ty, &fetch);
         let changed = renaming.iter().zip(0_u8..).filter(|(to, from)| *to != from);
         let value = changed.fold(level.clone(), |other, (to, from)| {
             let condition = format!("{level} == {}", self.dialect.uint(u32::from(from)));

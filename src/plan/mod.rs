@@ -243,11 +243,11 @@ impl<'p> Plan<'p> {
         let shape = options.shape;
         let made = Setting::new(program, &options).and_then(|setting| {
             let plan = match shape {
-                Shape::Ladder => build::ladder(program),
                 Shape::Ordered => chain::ordered(&setting),
                 Shape::Nested => chain::nested(&setting),
                 Shape::Tree => tree::tree(&setting),
-                Shape::Switch(_) if program.function.is_some() && program.states.count() == 1 => {
+                Shape::Ladder => build::ladder(program),
+                _ if program.function.is_some() && program.states.count() == 1 => {
                     Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
                 }
                 Shape::Switch(_) => build::switch(&setting, shape),

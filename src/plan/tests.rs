@@ -74,7 +74,7 @@ fn guard(random: &mut Random, depth: usize) -> String {
         0 => format!("side == {}", random.pick(&SIDES)),
         1 => format!("kind != {}", random.pick(&KINDS)),
         2 => random.pick(&["flag", "!near", "near", "side in {left, right}"]).to_owned(),
-        3 => random.pick(&["flag", "kind == open", "x < 0.5", "far == both"]).to_owned(),
+        3 => random.pick(&["flag", "kind == open", "x < 0.5"]).to_owned(),
         4 => format!("({} || {})", guard(random, depth - 1), guard(random, depth - 1)),
         _ => format!("({} && {})", guard(random, depth - 1), guard(random, depth - 1)),
     }
