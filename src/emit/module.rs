@@ -66,7 +66,9 @@ impl Writer<'_, '_> {
             self.text.line(prologue);
             self.text.gap();
         }
-        self.text.comment("Levels, as they stand in a key and as a fetch returns them.");
+        if !self.names.sets.is_empty() {
+            self.text.comment("Levels, as they stand in a key and as a fetch returns them.");
+        }
         for set in &self.names.sets {
             for (index, name) in set.constants.iter().enumerate() {
                 self.text.line(self.dialect.constant(name, index as u32));
@@ -142,7 +144,10 @@ impl Writer<'_, '_> {
     fn pack_function(&mut self) {
         let program = self.plan.program;
         let name = self.dialect.global(&self.prefix, "pack");
-        self.text.comment(&format!("The key of a state: {}.", describe_key(program, &self.plan.key)));
+        self.text.comment(&match program.states.digits().is_empty() {
+            true => "The key of the only state: there are no discrete inputs.".to_owned(),
+            false => format!("The key of a state: {}.", describe_key(program, &self.plan.key)),
+        });
         self.text.open(self.dialect.function(&name, &self.discrete(), &Type::Uint, &self.prefix));
         let mut parts = Vec::new();
         for field in self.plan.key.fields() {
