@@ -5,28 +5,48 @@
 //! a declaration that nothing uses, cases that contradict each other. Each analysis is a file of its own and a
 //! line of [`ANALYSES`].
 
+mod continuity;
 mod coverage;
 mod examples;
 mod levels;
+mod lines;
+mod numbers;
+mod orbit;
 mod overlap;
+mod point;
+mod real;
+mod sets;
+mod space;
+mod study;
 mod symmetry;
 mod unused;
+mod violations;
+mod words;
 
-use crate::diag::{Diagnostic, Severity};
-use crate::program::{Program, symbolic};
+use crate::diag::{Diagnostic, Severity, codes};
+use crate::program::Program;
+use study::Study;
 
 pub use coverage::{Coverage, Dead, coverage};
 pub use examples::agrees;
 pub use levels::{FINDINGS, Findings, Level, Levels};
+pub use numbers::{Range, ranges};
 pub use overlap::{Overlap, overlaps};
-pub use symmetry::{Violation, admissible, violations, violations_under};
+pub use violations::{Violation, admissible, violations, violations_under};
 
-/// Every analysis that can find something wrong, in the order in which findings are shown.
-const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] =
-    &[examples::findings, overlap::findings, coverage::findings, unused::findings];
+/// Analyses that look at a program as it is written.
+const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[examples::findings, unused::findings];
 
-/// Analyses that only ever note facts.
-const REMARKS: &[fn(&Program) -> Vec<Diagnostic>] = &[symmetry::findings];
+/// Analyses that look at all inputs at once.
+const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] =
+    &[
+        overlap::findings,
+        coverage::findings,
+        lines::findings,
+        symmetry::findings,
+        continuity::findings,
+        numbers::findings,
+    ];
 
 /// Everything that is questionable or worth knowing about a program, without
 /// what the table itself acknowledges.
@@ -39,8 +59,25 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 
 /// Every finding: those to be shown, at the levels asked for, and those that the table acknowledges.
 pub fn report(program: &Program, levels: &Levels) -> Findings {
-    let found = ANALYSES.iter().chain(REMARKS).flat_map(|analysis| analysis(program)).collect();
+    let mut found: Vec<Diagnostic> = PLAIN.iter().flat_map(|analysis| analysis(program)).collect();
+    let mut study = Study::new(program);
+    for analysis in SYMBOLIC {
+        let more = analysis(&mut study);
+        if study.space.is_too_large() {
+            found.push(not_analysed(program));
+            break;
+        }
+        found.extend(more);
+    }
+    found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     levels::sort(program, found, levels)
+}
+
+fn not_analysed(program: &Program) -> Diagnostic {
+    Diagnostic::note(codes::NOT_ANALYSED, "the table is too intricate for some analyses, which were left out")
+        .at(program.hit_policy_span, "")
+        .help("sets of its inputs, or the values of one of its lines, take more than the limits allow")
+        .help("split the table, or write conditions on fewer inputs")
 }
 
 /// The findings without notes; empty for a clean program.

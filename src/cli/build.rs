@@ -28,7 +28,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
     #[command(flatten)]
-    levels: levels::Arguments,
+    levels: levels::LevelArguments,
 }
 
 /// Builds every table. Nothing is written unless all of them are right.

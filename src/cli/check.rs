@@ -17,7 +17,7 @@ pub(super) struct Arguments {
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     #[command(flatten)]
-    levels: levels::Arguments,
+    levels: levels::LevelArguments,
 }
 
 /// Checks every table; a bad one does not keep the others from being checked.

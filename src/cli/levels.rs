@@ -4,7 +4,7 @@ use crate::analyse::{Level, Levels};
 
 /// Arguments of commands that report findings.
 #[derive(clap::Args)]
-pub(super) struct Arguments {
+pub(super) struct LevelArguments {
     /// Report these findings as warnings (exit code 1), whatever they are by themselves
     #[arg(long = "warn", short = 'W', value_name = "CODE", value_delimiter = ',', value_parser = parse(Level::Warn))]
     warn: Vec<String>,
@@ -21,7 +21,7 @@ fn parse(level: Level) -> impl Fn(&str) -> Result<String, String> + Clone {
     move |code| Levels::default().set(code, level).map(|()| code.to_ascii_uppercase())
 }
 
-impl Arguments {
+impl LevelArguments {
     /// The levels asked for. Of several for one code the strictest counts.
     pub(super) fn levels(&self) -> Levels {
         let mut levels = Levels::default();
