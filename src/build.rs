@@ -52,6 +52,31 @@ pub struct Built {
     pub files: Vec<Artifact>,
 }
 
+/// Proves, emits and validates what [`Program::read_all`] reads from a table
+/// file: a table of cases, or the functions of a table, which share their files.
+///
+/// # Errors
+/// As [`table`].
+pub fn programs(programs: &[Program], options: &Options) -> Result<Built, Failure> {
+    match programs {
+        [program] if program.function.is_none() => table(program, options),
+        functions => library(functions, options),
+    }
+}
+
+/// The functions of a table. They have no states to choose by, so there is one plan.
+fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
+    let proved = functions.iter().map(|f| Plan::proved(f, Shape::Ladder)).collect::<Result<Vec<_>, _>>()?;
+    let table = functions.first().map_or(String::new(), |function| function.table().to_owned());
+    let mut built = Built { table, plans: Vec::new(), skipped: Vec::new(), files: Vec::new() };
+    for target in &options.targets {
+        let path = Path::new(&built.table).join(format!("functions.{}", target.extension()));
+        built.files.push(Artifact { path, contents: emit::emit_all(&proved, *target)? });
+    }
+    built.plans.extend(proved.iter().map(|p| p.proof().clone()).reduce(Proof::and).map(|proof| (Shape::Ladder, proof)));
+    Ok(built)
+}
+
 /// Proves, emits and validates one checked table.
 ///
 /// # Errors

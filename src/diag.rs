@@ -146,6 +146,19 @@ pub mod codes {
     pub const NOT_FINITE: Code = Code("U0208");
     pub const CIRCULAR_NAME: Code = Code("U0209");
 
+    // Functions of a table.
+    pub const RECURSION: Code = Code("U0210");
+    pub const TOO_MANY_TERMS: Code = Code("U0211");
+    pub const NOT_CONSTANT: Code = Code("U0212");
+    pub const IMPORT: Code = Code("U0213");
+    pub const FUNCTION_SHAPE: Code = Code("U0214");
+    pub const PARAMETER: Code = Code("U0215");
+    pub const NO_FUNCTION: Code = Code("U0216");
+    pub const OUTPUTS: Code = Code("U0217");
+    pub const OUTSIDE_DOMAIN: Code = Code("U0218");
+    pub const LIMIT_BROKEN: Code = Code("U0219");
+    pub const BUDGET_EXCEEDED: Code = Code("U0220");
+
     // Names and declarations.
     pub const BAD_NAME: Code = Code("U0301");
     pub const RESERVED_NAME: Code = Code("U0302");
@@ -185,11 +198,22 @@ pub mod codes {
     pub const RENAMED: Code = Code("U0522");
     pub const NOT_ANALYSED: Code = Code("U0530");
     pub const UNUSED_ALLOW: Code = Code("U0531");
+    pub const REMOVABLE: Code = Code("U0551");
+    pub const POLE: Code = Code("U0552");
+    pub const CANCELS: Code = Code("U0553");
+    pub const OVERFLOW: Code = Code("U0554");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");
     pub const NOT_APPLICABLE: Code = Code("U0602");
     pub const INVALID_OUTPUT: Code = Code("U0603");
+
+    // Profiles and tuning.
+    pub const BAD_PROFILE: Code = Code("U0611");
+    pub const OTHER_PROFILE: Code = Code("U0612");
+    pub const EMPTY_PROFILE: Code = Code("U0613");
+    pub const OLD_PROFILE: Code = Code("U0614");
+    pub const EXCLUDED_STATE: Code = Code("U0615");
 
     // Values given to a table.
     pub const BAD_COLUMN: Code = Code("U0701");
@@ -200,6 +224,12 @@ pub mod codes {
     // Devices.
     pub const NO_ADAPTER: Code = Code("U0801");
     pub const DEVICE: Code = Code("U0802");
+
+    // Scenes and renderers.
+    pub const SCENE: Code = Code("U0901");
+    pub const MESH: Code = Code("U0902");
+    pub const RENDER: Code = Code("U0903");
+    pub const FOREIGN_INPUT: Code = Code("U0904");
 }
 
 /// A place that a diagnostic speaks about.

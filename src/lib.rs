@@ -24,6 +24,8 @@
 //! ```
 
 pub mod analyse;
+#[cfg(feature = "report")]
+pub mod atlas;
 pub mod build;
 pub mod capture;
 #[cfg(feature = "cli")]
@@ -39,6 +41,7 @@ pub mod gpu;
 #[cfg(feature = "report")]
 pub mod picture;
 pub mod plan;
+pub mod profile;
 pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;

@@ -24,11 +24,12 @@ impl Precision {
 }
 
 /// The names of the components of an output, for headings: `value`, or `value_x` and so on.
-pub fn component_names(output: &Output) -> &'static [&'static str] {
+pub fn component_names(output: &Output) -> Vec<&str> {
     const NAMES: [&str; 4] = ["value_x", "value_y", "value_z", "value_w"];
     match output {
-        Output::Vector(size) => &NAMES[..*size],
-        _ => &["value"],
+        Output::Vector(size) => NAMES[..*size].to_vec(),
+        Output::Record(names) => names.iter().map(String::as_str).collect(),
+        _ => vec!["value"],
     }
 }
 
@@ -36,7 +37,9 @@ pub fn component_names(output: &Output) -> &'static [&'static str] {
 pub fn words(output: &Output, values: &[f64], precision: Precision) -> Vec<String> {
     let name = |levels: &[String], value: f64| levels.get(value as usize).cloned().unwrap_or_else(|| "?".to_owned());
     match (output, values) {
-        (Output::Number | Output::Vector(_), _) => values.iter().map(|v| precision.show(*v)).collect(),
+        (Output::Number | Output::Vector(_) | Output::Record(_), _) => {
+            values.iter().map(|v| precision.show(*v)).collect()
+        }
         (Output::Enumeration(levels), _) => values.iter().map(|v| name(&levels.names, *v)).collect(),
         (Output::List { levels, .. }, [length, items @ ..]) => {
             items.iter().take(*length as usize).map(|v| name(&levels.names, *v)).collect()
@@ -50,6 +53,10 @@ pub fn sentence(output: &Output, values: &[f64], precision: Precision) -> String
     let words = words(output, values, precision);
     match output {
         Output::Vector(_) => format!("({})", words.join(", ")),
+        Output::Record(names) => {
+            let parts: Vec<String> = names.iter().zip(words).map(|(name, word)| format!("{name} = {word}")).collect();
+            parts.join(", ")
+        }
         Output::List { .. } if words.is_empty() => "an empty list".to_owned(),
         _ => words.join(" "),
     }

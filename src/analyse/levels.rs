@@ -27,6 +27,14 @@ pub const FINDINGS: &[(Code, &str)] = &[
     (codes::MERGEABLE, "cases that could be one"),
     (codes::RENAMED, "a name that a target has to change"),
     (codes::NOT_ANALYSED, "an analysis that could not be done"),
+    (codes::REMOVABLE, "a division by zero where the value has a limit"),
+    (codes::POLE, "a division by zero where it has none"),
+    (codes::CANCELS, "terms that cancel on paper only"),
+    (codes::OVERFLOW, "an overflow on the way to a finite value"),
+    (codes::REMOVABLE, "a singularity that a series would remove"),
+    (codes::POLE, "a pole, or the end of a domain"),
+    (codes::CANCELS, "a difference that cancels"),
+    (codes::OVERFLOW, "an operation that overflows"),
     (codes::UNUSED_ALLOW, "an `allow` that acknowledges nothing"),
 ];
 

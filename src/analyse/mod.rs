@@ -16,8 +16,11 @@ mod overlap;
 mod point;
 mod real;
 mod sets;
+#[cfg(feature = "precise")]
+mod singular;
 mod space;
 mod study;
+mod style;
 mod symmetry;
 mod unused;
 mod violations;
@@ -32,10 +35,17 @@ pub use examples::agrees;
 pub use levels::{FINDINGS, Findings, Level, Levels};
 pub use numbers::{Range, ranges};
 pub use overlap::{Overlap, overlaps};
+#[cfg(feature = "precise")]
+pub use singular::{Singularity, singularities};
 pub use violations::{Violation, admissible, violations, violations_under};
 
 /// Analyses that look at a program as it is written.
-const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[examples::findings, unused::findings];
+const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[
+    examples::findings,
+    unused::findings,
+    #[cfg(feature = "precise")]
+    singular::findings,
+];
 
 /// Analyses that look at all inputs at once.
 const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] =
@@ -46,6 +56,7 @@ const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] =
         symmetry::findings,
         continuity::findings,
         numbers::findings,
+        style::findings,
     ];
 
 /// Everything that is questionable or worth knowing about a program, without

@@ -7,14 +7,17 @@ use std::collections::HashSet;
 
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{InputSet, Program};
-use crate::table::expr::{Expr, ExprKind};
+use crate::table::expr::{Expr, ExprKind, SumOver};
 use crate::table::{CaseBody, Image, Table};
 
 /// Looks for unused inputs, then for unused names.
 pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
     let mut found = inputs(program);
     // Names are gone from a program, but its source is that of a well-formed table.
-    if let Ok(table) = Table::parse(program.source.clone()) {
+    // The names of a table of functions are for all of them, so one cannot tell.
+    if program.function.is_none()
+        && let Ok(table) = Table::parse(program.source.clone())
+    {
         found.extend(names(&table));
     }
     found
@@ -93,7 +96,12 @@ fn mentions<'t>(expr: &'t Expr, found: &mut HashSet<&'t str>) {
         ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => all(&[a, b]),
         ExprKind::If(c, a, b) => all(&[c, a, b]),
         ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().for_each(|item| mentions(item, found)),
-        ExprKind::Case(_, set) => set.iter().for_each(|(_, value)| mentions(value, found)),
+        ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
+            set.iter().for_each(|(_, value)| mentions(value, found));
+        }
+        ExprKind::Between(body, _, lo, hi) => all(&[body, lo, hi]),
+        ExprKind::Sum(_, SumOver::Items(_), term) => all(&[term]),
+        ExprKind::Sum(_, SumOver::Range(lo, hi), term) => all(&[lo, hi, term]),
     }
 }
 

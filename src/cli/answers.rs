@@ -75,7 +75,7 @@ impl<'p> Writer<'p> {
         }
         // Numbers and names of levels need no quotes.
         match &self.program.output {
-            Output::Number | Output::Vector(_) => {
+            Output::Number | Output::Vector(_) | Output::Record(_) => {
                 for (i, value) in values.iter().enumerate() {
                     let comma = if i > 0 { "," } else { "" };
                     match self.precision {
@@ -98,6 +98,14 @@ impl<'p> Writer<'p> {
             false => format!("\"{word}\""),
         };
         let value = match &self.program.output {
+            Output::Record(names) => {
+                // One key per number, as there is one column in CSV.
+                let fields = names.iter().zip(words.iter().zip(values));
+                let fields = fields.map(|(name, pair)| format!(",\"{name}\":{}", number(pair))).collect::<String>();
+                let case = row.map_or(json!("default"), |row| Value::from(self.program.rows[row].id));
+                let separator = if std::mem::replace(&mut self.started, true) { "," } else { "" };
+                return write!(self.out, "{separator}\n{{\"case\":{case}{fields}}}");
+            }
             Output::Number => words.iter().zip(values).map(number).collect(),
             Output::Vector(_) => {
                 format!("[{}]", words.iter().zip(values).map(number).collect::<Vec<_>>().join(","))

@@ -11,6 +11,7 @@ use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::emit::Target;
 use crate::plan::Shape;
 use crate::program::Program;
+use crate::table::Table;
 
 /// Arguments of `umbrage build`.
 #[derive(clap::Args)]
@@ -41,14 +42,14 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         options.targets.clone_from(&arguments.target);
     }
     let levels = arguments.levels.levels();
-    let mut done: Vec<(Program, Built)> = Vec::new();
+    let mut done: Vec<(Vec<Program>, Built)> = Vec::new();
     let mut outcome = Outcome::Clean;
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
             // An exhibit is built only if it was named.
-            let result = Program::read(&file).and_then(|program| match path.is_dir() && program.exhibit.is_some() {
+            let result = Table::read(&file).and_then(|table| match path.is_dir() && table.exhibit.is_some() {
                 true => Ok(None),
-                false => one(program, &options, &levels, report, &done).map(Some),
+                false => one(&table, &options, &levels, report, &done).map(Some),
             });
             match result {
                 Ok(None) => {}
@@ -75,49 +76,59 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 fn one(
-    program: Program,
+    table: &Table,
     options: &Options,
     levels: &Levels,
     report: &Report,
-    done: &[(Program, Built)],
-) -> std::result::Result<((Program, Built), Outcome), Failure> {
-    if let Some((other, _)) = done.iter().find(|(other, _)| other.name == program.name) {
-        let message = format!("`{}` and this file both define the table `{}`", other.source.name, program.name);
+    done: &[(Vec<Program>, Built)],
+) -> std::result::Result<((Vec<Program>, Built), Outcome), Failure> {
+    let (name, source) = (table.name.value.clone(), table.source.clone());
+    if let Some((other, _)) = done.iter().find(|(_, built)| built.table == name) {
+        let other = other.first().map_or("", |program| program.source.name.as_str());
+        let message = format!("`{other}` and this file both define the table `{name}`");
         let error =
             Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
-        return Err(Failure::new(program.source.clone(), error));
+        return Err(Failure::new(source, error));
     }
+    let programs = Program::check_all(table)?;
     // Notes are for `check`: here they would hide what was built.
-    let findings = crate::analyse::problems(&program, levels);
+    let findings: Vec<Diagnostic> =
+        programs.iter().flat_map(|program| crate::analyse::problems(program, levels)).collect();
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
-        return Err(Failure { source: program.source.clone(), diagnostics: findings });
+        return Err(Failure { source, diagnostics: findings });
     }
     let found = match findings.iter().any(|finding| finding.severity == Severity::Warning) {
         true => Outcome::Findings,
         false => Outcome::Clean,
     };
-    report.show(&program.source, &findings);
-    let built = build::table(&program, options)?;
-    Ok(((program, built), found))
+    report.show(&source, &findings);
+    let built = build::programs(&programs, options)?;
+    Ok(((programs, built), found))
 }
 
 fn summary(
-    done: &[(Program, Built)],
+    done: &[(Vec<Program>, Built)],
     options: &Options,
     count: usize,
     written: usize,
     arguments: &Arguments,
 ) -> Result<()> {
     let mut out = io::stdout().lock();
-    for (program, built) in done {
-        let (cases, states) = (program.rows.len(), program.states.count());
-        writeln!(
-            out,
-            "{}: {cases} cases, {} inputs, {states} states, {} examples hold",
-            program.source.name,
-            program.inputs.len(),
-            program.examples.len()
-        )?;
+    for (programs, built) in done {
+        let Some(program) = programs.first() else { continue };
+        if program.function.is_some() {
+            let examples: usize = programs.iter().map(|program| program.examples.len()).sum();
+            writeln!(out, "{}: {} functions, {examples} examples hold", program.source.name, programs.len())?;
+        } else {
+            let (cases, states) = (program.rows.len(), program.states.count());
+            writeln!(
+                out,
+                "{}: {cases} cases, {} inputs, {states} states, {} examples hold",
+                program.source.name,
+                program.inputs.len(),
+                program.examples.len()
+            )?;
+        }
         for (shape, proof) in &built.plans {
             writeln!(out, "  {:<14} proved {proof}", shape.name())?;
         }

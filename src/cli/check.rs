@@ -43,8 +43,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 
 /// Checks one table and says how that went. What is found in an exhibit is shown only if it was named.
 fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, walked: bool) -> Result<Outcome> {
-    let program = match Program::read(file) {
-        Ok(program) => program,
+    let programs = match Program::read_all(file) {
+        Ok(programs) => programs,
         Err(failure) => {
             let outcome = show(out, report, &failure)?;
             if report.format == Format::Human {
@@ -54,7 +54,18 @@ fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, wa
             return Ok(outcome);
         }
     };
-    let found = analyse::report(&program, levels);
+    let Some(program) = programs.first() else { return Ok(Outcome::Clean) };
+    let mut found = analyse::report(program, levels);
+    for further in &programs[1..] {
+        let more = analyse::report(further, levels);
+        // What the functions of a table have in common is said once.
+        for finding in more.open {
+            if !found.open.contains(&finding) {
+                found.open.push(finding);
+            }
+        }
+        found.acknowledged.extend(more.acknowledged);
+    }
     if walked && program.exhibit.is_some() {
         if report.format == Format::Human {
             let count = plural(found.open.len(), "finding");
@@ -70,16 +81,21 @@ fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, wa
             Outcome::Findings => "warn ",
             Outcome::Failed => "FAIL ",
         };
+        let examples = plural(programs.iter().map(|program| program.examples.len()).sum(), "example");
+        if program.function.is_some() {
+            let functions = plural(programs.len(), "function");
+            writeln!(out, "{verdict} {}: {functions}, {examples} run", program.source.name)?;
+            return Ok(outcome);
+        }
         let fetched = program.fetched.iter().count();
         let inputs = plural(program.inputs.len(), "input");
         writeln!(
             out,
-            "{verdict} {}: {}, {inputs}{}, {}, {} run{}",
+            "{verdict} {}: {}, {inputs}{}, {}, {examples} run{}",
             program.source.name,
             plural(program.rows.len(), "case"),
             if fetched > 0 { format!(" ({fetched} fetched)") } else { String::new() },
             plural(program.states.count(), "state"),
-            plural(program.examples.len(), "example"),
             match found.acknowledged.len() {
                 0 => String::new(),
                 count => format!(", {} acknowledged", plural(count, "finding")),

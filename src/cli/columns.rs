@@ -161,7 +161,6 @@ impl<'s> Columns<'s> {
 }
 
 /// Reads all rows at once.
-#[cfg(feature = "gpu")]
 pub(super) fn read_all(program: &Program, path: &Path) -> Result<eval::Columns<f32>, Failure> {
     let rows = read(program, path)?;
     if let Some(capture) = rows.capture {

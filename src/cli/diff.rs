@@ -49,11 +49,9 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut programs = Vec::new();
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
-            let program = Program::read(&file)?;
+            let found = Program::read_all(&file)?;
             // An exhibit is compared only if it was named.
-            if !path.is_dir() || program.exhibit.is_none() {
-                programs.push(program);
-            }
+            programs.extend(found.into_iter().filter(|program| !path.is_dir() || program.exhibit.is_none()));
         }
     }
     let frames = match (arguments.frames.as_slice(), programs.as_slice()) {
@@ -107,8 +105,9 @@ fn progress(program: &Program) -> ProgressBar {
 }
 
 fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Result<()> {
+    let function = program.function.as_ref().map_or(String::new(), |f| format!(", function {}", f.name));
     let states = report.states.map_or(String::new(), |states| format!("{states} states, "));
-    writeln!(out, "{}: {states}{} points", program.source.name, report.points)?;
+    writeln!(out, "{}{function}: {states}{} points", program.source.name, report.points)?;
     writeln!(out, "  plan           entry   source   bit-equal  admissible   offending   worst difference")?;
     for run in &report.runs {
         writeln!(
@@ -124,9 +123,10 @@ fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Resu
         )?;
         for offender in &run.offenders {
             writeln!(out, "    {}", offender.reason)?;
+            let function = program.function.as_ref().map_or(String::new(), |f| format!(" --function {}", f.name));
             writeln!(
                 out,
-                "    to see what should happen: umbrage explain {} --at {}",
+                "    to see what should happen: umbrage explain {}{function} --at {}",
                 program.source.name, offender.inputs
             )?;
         }

@@ -19,6 +19,7 @@ use crate::gpu::{AdapterChoice, Gpu, Kernel, Language};
 use crate::plan::Shape;
 #[cfg(feature = "gpu")]
 use crate::plan::{Plan, Proved};
+use crate::program::print::Printer;
 use crate::program::{InputId, Program, Real, Value};
 use crate::show::Precision;
 
@@ -27,6 +28,9 @@ use crate::show::Precision;
 pub(super) struct Arguments {
     /// The table
     table: PathBuf,
+    /// The function of a table of functions
+    #[arg(long, value_name = "NAME")]
+    function: Option<String>,
     /// Rows of inputs: CSV with a header, *.json with an array of objects, or *.bin, a capture; `-` is standard input
     #[arg(long, default_value = "-", value_name = "FILE")]
     input: PathBuf,
@@ -70,7 +74,7 @@ enum Executor<'a> {
 
 /// Reads, evaluates and writes, a chunk of rows at a time.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let program = Program::read(&arguments.table)?;
+    let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     #[cfg(feature = "gpu")]
     let device = match arguments.executor {
         ExecutorArgument::Gpu => Some(on_gpu(&program, arguments)?),
@@ -110,6 +114,9 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     while columns.next(&mut points, &mut problems) {
         // Rows that cannot be read have no answer; the others are judged nevertheless, to report all that is wrong.
         let answers = evaluate(&program, &points, &executor, precision)?;
+        if program.function.is_some() {
+            outside(&program, &points, |place| columns.locate(source, place), &mut problems);
+        }
         for (index, input) in &answers.needed {
             let place = columns.locate(source, points.place(*index));
             problems.push(|| needs(&program, points.point(*index), place, *input));
@@ -123,6 +130,46 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     writer.end()?.finish()?;
     Ok(Outcome::Clean)
+}
+
+/// Notes rows at which a function is not meant to be used.
+fn outside(
+    program: &Program,
+    points: &Points,
+    locate: impl Fn(Span) -> (String, Option<Span>),
+    problems: &mut Problems,
+) {
+    if program.assumptions.is_empty() {
+        return;
+    }
+    let mut interpreter = Interpreter::<f64>::new(program);
+    for index in 0..points.len() {
+        if interpreter.place(points.point(index)).is_err() {
+            continue;
+        }
+        for condition in &program.assumptions {
+            if interpreter.holds(condition.condition) == Ok(false) {
+                let (row, place) = locate(points.place(index));
+                problems.push(|| {
+                    let printer = Printer { pool: &program.pool, inputs: &program.inputs };
+                    let message = format!(
+                        "{row}: outside of the domain of `{}`: {} does not hold",
+                        program.function.as_ref().map_or("", |f| f.name.as_str()),
+                        printer.cond(condition.condition)
+                    );
+                    let error = Diagnostic::error(codes::OUTSIDE_DOMAIN, message);
+                    let error = match place {
+                        Some(place) => error.at(place, "in this row"),
+                        None => error,
+                    };
+                    match condition.doc.is_empty() {
+                        true => error.help("leave out the row, or mend its values"),
+                        false => error.help(condition.doc.clone()),
+                    }
+                });
+            }
+        }
+    }
 }
 
 /// A row that leaves out what it needs.

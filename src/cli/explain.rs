@@ -19,6 +19,9 @@ use crate::show;
 pub(super) struct Arguments {
     /// The table
     table: PathBuf,
+    /// The function of a table of functions
+    #[arg(long, value_name = "NAME")]
+    function: Option<String>,
     /// The point, as in H=left,dV=0.5; inputs that are left out have their default
     #[arg(long, value_name = "INPUT=VALUE,...", default_value = "")]
     at: String,
@@ -29,7 +32,7 @@ pub(super) struct Arguments {
 
 /// Explains one point.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let program = Program::read(&arguments.table)?;
+    let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     let source = Source::new("--at", arguments.at.as_str());
     let (point, assumed) = point(&program, &source)?;
     let explanation = explain::explain(&program, &point, arguments.precision.into())

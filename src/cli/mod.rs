@@ -5,6 +5,8 @@
 //! output, messages to standard error.
 
 mod answers;
+#[cfg(feature = "report")]
+mod atlas;
 mod build;
 mod check;
 mod columns;
@@ -16,6 +18,7 @@ mod explain;
 mod json_input;
 mod levels;
 mod output;
+mod profile;
 mod report;
 
 use std::io;
@@ -45,6 +48,9 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Draw every case of a table
+    #[cfg(feature = "report")]
+    Atlas(atlas::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -56,6 +62,8 @@ enum Command {
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about
     Explain(explain::Arguments),
+    /// Count how often each state of a table occurs; merge, show and compare such counts
+    Profile(profile::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -121,12 +129,15 @@ pub fn main() -> ExitCode {
     };
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
+        #[cfg(feature = "report")]
+        Command::Atlas(arguments) => atlas::run(&arguments),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Profile(arguments) => profile::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,

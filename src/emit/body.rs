@@ -3,11 +3,11 @@
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
-use super::dialect::{Dialect, Prefix, Type, bare};
+use super::dialect::{Dialect, Prefix, Type, bare, call};
 use super::names::Names;
 use super::text::Text;
 use crate::plan::{Leaf, Plan, Step, StepId};
-use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node};
+use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, UnaryOp};
 
 /// Deepest nesting of a printed expression; what is deeper gets a local.
 /// Front ends recurse, and some give up at about seventy levels.
@@ -99,7 +99,7 @@ impl Body<'_, '_> {
             leaf.values.iter().map(|value| self.expr(*value, &locals)).collect()
         };
         let components: Vec<String> = components.iter().map(|c| bare(c).to_owned()).collect();
-        let value = self.dialect.value(output, &components);
+        let value = self.dialect.value(self.prefix, output, &components);
         let result = self.dialect.result(self.prefix, &value, &case);
         self.text.line(format!("return {result};"));
     }
@@ -221,6 +221,10 @@ impl Body<'_, '_> {
             Node::Input(input) => self.plan.program.inputs[input.index()].ident.clone(),
             // Occurs in the result map of a symmetry only, which is not part of any plan.
             Node::Result => String::new(),
+            Node::Unary(op @ (UnaryOp::PortableSin | UnaryOp::PortableCos), a) => {
+                let pair = call(&self.dialect.global(self.prefix, "sincos"), &[&of(a)]);
+                self.dialect.of_pair(&pair, op == UnaryOp::PortableCos)
+            }
             Node::Unary(op, a) => self.dialect.unary(op, &of(a)),
             Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
             Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),

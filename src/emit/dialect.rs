@@ -8,6 +8,8 @@ pub(super) enum Type {
     Float,
     Uint,
     Bool,
+    /// A sine and a cosine.
+    Pair,
     /// The table's output.
     Value(Output),
     /// The output together with the case taken.
@@ -41,6 +43,11 @@ impl Prefix {
         format!("{}Result", self.camel)
     }
 
+    /// The structure of a value that consists of several numbers with names.
+    pub(super) fn value(&self) -> String {
+        format!("{}Value", self.camel)
+    }
+
     /// The structure that the host defines.
     pub(super) fn site(&self) -> String {
         format!("{}Site", self.camel)
@@ -56,6 +63,44 @@ pub(super) trait Dialect {
     /// Functions that the language lacks, for a table that needs remainders.
     fn remainder(&self, _: &Prefix) -> String {
         String::new()
+    }
+    /// A function for sine and cosine from additions, products and a rounding.
+    fn sincos(&self, prefix: &Prefix) -> String {
+        let name = self.global(prefix, "sincos");
+        let round = self.unary(UnaryOp::Round, "(x * 0.63661975)");
+        let lines = [
+            ("quarters", round.as_str()),
+            ("r", "((x - quarters * 1.5703125) - quarters * 0.0004837513) - quarters * 7.54979e-8"),
+            ("z", "r * r"),
+            ("s", "r + r * z * (-0.16666655 + z * (0.008332161 - z * 0.00019515296))"),
+            ("c", "(1.0 - 0.5 * z) + z * z * (0.041666646 + z * (-0.0013887316 + z * 0.000024433157))"),
+            ("halves", &self.unary(UnaryOp::Floor, "(quarters * 0.5)")),
+            ("odd", "quarters - 2.0 * halves"),
+            ("even", "1.0 - odd"),
+            ("next", &self.unary(UnaryOp::Floor, "(quarters * 0.5 + 0.5)")),
+            ("sign_s", &format!("1.0 - 2.0 * (halves - 2.0 * {})", self.unary(UnaryOp::Floor, "(halves * 0.5)"))),
+            ("sign_c", &format!("1.0 - 2.0 * (next - 2.0 * {})", self.unary(UnaryOp::Floor, "(next * 0.5)"))),
+        ];
+        let x = [("x".to_owned(), Type::Float)];
+        let mut out = format!(
+            "// Sine and cosine, as accurate on every device; the language promises too little for its own.\n{}\n",
+            self.function(&name, &x, &Type::Pair, prefix)
+        );
+        for (name, value) in lines {
+            out += &format!("    {}\n", self.local(&Type::Float, name, value, prefix));
+        }
+        out + &format!(
+            "    return {};\n}}",
+            self.make_pair("(s * even + c * odd) * sign_s", "(c * even + s * odd) * sign_c")
+        )
+    }
+    /// A pair of numbers.
+    fn make_pair(&self, first: &str, second: &str) -> String {
+        format!("vec2({first}, {second})")
+    }
+    /// One of a pair of numbers.
+    fn of_pair(&self, pair: &str, second: bool) -> String {
+        format!("{pair}.{}", if second { "y" } else { "x" })
     }
     /// The last lines of a file.
     fn epilogue(&self) -> &'static str {
@@ -107,8 +152,10 @@ pub(super) trait Dialect {
     fn binary(&self, prefix: &Prefix, op: BinaryOp, a: &str, b: &str) -> String;
     /// An operation on three numbers.
     fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String;
+    /// The structure of a value that consists of several numbers with names.
+    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String;
     /// The output made of its components.
-    fn value(&self, output: &Output, components: &[String]) -> String;
+    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String;
     /// Value and case together.
     fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
         format!("{}({value}, {case})", prefix.result())

@@ -38,6 +38,8 @@ impl Dialect for Glsl {
             Type::Uint => "uint".to_owned(),
             Type::Bool => "bool".to_owned(),
             Type::Value(Output::Number) => "float".to_owned(),
+            Type::Pair => "vec2".to_owned(),
+            Type::Value(Output::Record(_)) => prefix.value(),
             Type::Value(Output::Vector(size)) => format!("vec{size}"),
             Type::Value(Output::Enumeration(_)) => "uint".to_owned(),
             Type::Value(Output::List { max, .. }) => format!("uint[{}]", max + 1),
@@ -82,6 +84,11 @@ impl Dialect for Glsl {
     fn result_struct(&self, prefix: &Prefix, output: &Output) -> String {
         let ty = self.ty(&Type::Value(output.clone()), prefix);
         format!("struct {} {{\n    {ty} value;\n    uint case_id;\n}};", prefix.result())
+    }
+
+    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String {
+        let fields: String = names.iter().map(|name| format!("    float {name};\n")).collect();
+        format!("struct {} {{\n{fields}}};", prefix.value())
     }
 
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String {
@@ -148,9 +155,10 @@ impl Dialect for Glsl {
         }
     }
 
-    fn value(&self, output: &Output, components: &[String]) -> String {
+    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {
         match output {
             Output::Number | Output::Enumeration(_) => components.concat(),
+            Output::Record(_) => format!("{}({})", prefix.value(), components.join(", ")),
             Output::Vector(size) => format!("vec{size}({})", components.join(", ")),
             Output::List { max, .. } => format!("uint[{}]({})", max + 1, components.join(", ")),
         }

@@ -189,7 +189,7 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     let _ = writeln!(out, "    let result = {function}({});", arguments.join(", "));
     store(&mut out, program, &layout, "bitcast<u32>");
     out += "}\n";
-    module::write(proved, &Wgsl) + &name_buffers(&prefix, &out)
+    module::write(proved, &Wgsl) + &name_buffers(program, &prefix, &out)
 }
 
 /// The same in GLSL 450.
@@ -234,7 +234,7 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
             count_fetch(&layout, index),
         );
     }
-    let before = name_buffers(&prefix, &out) + &module::write(proved, &glsl);
+    let before = name_buffers(program, &prefix, &out) + &module::write(proved, &glsl);
     let mut out = String::from(
         "void main() {\n    uint row = gl_GlobalInvocationID.x;\n    if (row >= $plain[0]) {\n        return;\n    }\n",
     );
@@ -248,12 +248,17 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     let _ = writeln!(out, "    {} result = {function}({});", prefix.result(), arguments.join(", "));
     store(&mut out, program, &layout, "floatBitsToUint");
     out += "}\n";
-    before + &name_buffers(&prefix, &out)
+    before + &name_buffers(program, &prefix, &out)
 }
 
 /// Names the buffers, which stand as `$plain` and so on, other than anything of the table.
-fn name_buffers(prefix: &Prefix, text: &str) -> String {
-    text.replace('$', if prefix.lower.starts_with("umbrage") { "columns_" } else { "umbrage_" })
+/// Those of functions, several of which share a module, are also told apart by its name.
+fn name_buffers(program: &Program, prefix: &Prefix, text: &str) -> String {
+    let start = if prefix.lower.starts_with("umbrage") { "columns_" } else { "umbrage_" };
+    match &program.function {
+        Some(function) => text.replace('$', &format!("{start}{}_", function.name)),
+        None => text.replace('$', start),
+    }
 }
 
 fn count_fetch(layout: &Layout, index: usize) -> String {
@@ -288,6 +293,11 @@ fn store(out: &mut String, program: &Program, layout: &Layout, to_bits: &str) {
     match &program.output {
         Output::Number => put(1, format!("{to_bits}(result.value)")),
         Output::Enumeration(_) => put(1, "result.value".to_owned()),
+        Output::Record(names) => {
+            for (i, name) in names.iter().enumerate() {
+                put(1 + i, format!("{to_bits}(result.value.{name})"));
+            }
+        }
         Output::Vector(size) => {
             for i in 0..*size {
                 put(1 + i, format!("{to_bits}(result.value[{i}])"));

@@ -89,6 +89,41 @@ impl Target {
     }
 }
 
+/// Emits the plans of the functions of a table into one file, and validates it.
+///
+/// # Errors
+/// As [`emit`].
+pub fn emit_all(functions: &[Proved<'_>], target: Target) -> Result<Vec<u8>, Failure> {
+    let Some(first) = functions.first() else { return Ok(Vec::new()) };
+    let program = first.plan().program;
+    let join = |texts: Vec<String>| texts.join("\n");
+    match target {
+        Target::Wgsl => {
+            let source = join(functions.iter().map(wgsl).collect());
+            wgsl_module(program, &source)?;
+            Ok(source.into_bytes())
+        }
+        Target::Glsl(version) => {
+            let source = join(functions.iter().map(|function| glsl(function, version)).collect());
+            if version == GlslVersion::V450 {
+                glsl_module(program, &harness::glsl_library(first, &source, version))?;
+            }
+            Ok(source.into_bytes())
+        }
+        Target::Rust => Ok(join(functions.iter().map(rust).collect()).into_bytes()),
+        Target::SpirV | Target::Hlsl | Target::Msl => {
+            let source = join(functions.iter().map(|f| harness::wgsl_columns(f, harness::Entry::Key)).collect());
+            let module = wgsl_module(program, &source)?;
+            let translated = match target {
+                Target::SpirV => Translated::SpirV,
+                Target::Hlsl => Translated::Hlsl,
+                _ => Translated::Msl,
+            };
+            translate(program, &module, translated)
+        }
+    }
+}
+
 /// Emits a proved plan and validates what was emitted.
 ///
 /// WGSL and GLSL 450 are parsed and validated by naga; SPIR-V, HLSL and MSL

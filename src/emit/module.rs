@@ -12,7 +12,7 @@ use super::dialect::{Dialect, Prefix, Type};
 use super::names::{Names, fetches, input_type};
 use super::text::Text;
 use crate::plan::{KeyLayout, LookupPlace, Plan, Proved, Shape, Step};
-use crate::program::{BinaryOp, Domain, InputId, LevelKind, Levels, Node, Program};
+use crate::program::{BinaryOp, Domain, InputId, LevelKind, Levels, Node, Output, Program, UnaryOp};
 
 /// Writes the module of a plan.
 pub(super) fn write(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
@@ -76,15 +76,24 @@ impl Writer<'_, '_> {
         let name = self.dialect.global_constant(&self.prefix, "DEFAULT");
         self.text.line(self.dialect.constant(&name, self.names.default));
         self.text.gap();
+        if let Output::Record(names) = &program.output {
+            self.text.comment("The result.");
+            self.text.line(self.dialect.value_struct(&self.prefix, names));
+            self.text.gap();
+        }
         self.text.comment("The result and the number of the case that gave it.");
         self.text.line(self.dialect.result_struct(&self.prefix, &program.output));
         self.text.gap();
-        if uses_remainder(self.plan) {
+        if uses(self.plan, |node| matches!(node, Node::Binary(BinaryOp::Remainder, ..))) {
             let helper = self.dialect.remainder(&self.prefix);
             if !helper.is_empty() {
                 self.text.line(helper);
                 self.text.gap();
             }
+        }
+        if uses(self.plan, |node| matches!(node, Node::Unary(UnaryOp::PortableSin | UnaryOp::PortableCos, _))) {
+            self.text.line(self.dialect.sincos(&self.prefix));
+            self.text.gap();
         }
         for set in self.names.sets.clone() {
             self.level_function(&set.name, &set.levels);
@@ -351,9 +360,9 @@ fn used_inputs(plan: &Plan<'_>) -> BTreeSet<InputId> {
     used
 }
 
-/// Whether a remainder is computed anywhere.
-fn uses_remainder(plan: &Plan<'_>) -> bool {
-    plan.pool.nodes().any(|node| matches!(node, Node::Binary(BinaryOp::Remainder, ..)))
+/// Whether some operation occurs anywhere.
+fn uses(plan: &Plan<'_>, operation: impl Fn(Node) -> bool) -> bool {
+    plan.pool.nodes().any(operation)
 }
 
 /// Entries of the lookup per word: arms are stored in 8 or 16 bits.

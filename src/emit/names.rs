@@ -59,7 +59,7 @@ impl Names {
             }
         }
         let mut hidden: BTreeSet<String> = program.inputs.iter().map(|input| input.ident.clone()).collect();
-        hidden.extend(["key".to_owned(), "site".to_owned(), prefix.result(), prefix.site()]);
+        hidden.extend(["key".to_owned(), "site".to_owned(), prefix.result(), prefix.value(), prefix.site()]);
         hidden.extend(taken);
         let mut temporary = "t".to_owned();
         let looks_so = |name: &str, start: &str| {

@@ -14,6 +14,8 @@ impl Dialect for Rust {
             Type::Uint => "u32".to_owned(),
             Type::Bool => "bool".to_owned(),
             Type::Value(Output::Number) => "f32".to_owned(),
+            Type::Pair => "[f32; 2]".to_owned(),
+            Type::Value(Output::Record(_)) => prefix.value(),
             Type::Value(Output::Vector(size)) => format!("[f32; {size}]"),
             Type::Value(Output::Enumeration(_)) => "u32".to_owned(),
             Type::Value(Output::List { max, .. }) => format!("[u32; {}]", max + 1),
@@ -52,6 +54,19 @@ impl Dialect for Rust {
             "#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {} {{\n    pub value: {ty},\n    pub case_id: u32,\n}}",
             prefix.result()
         )
+    }
+
+    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String {
+        let fields: String = names.iter().map(|name| format!("    pub {name}: f32,\n")).collect();
+        format!("#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {} {{\n{fields}}}", prefix.value())
+    }
+
+    fn make_pair(&self, first: &str, second: &str) -> String {
+        format!("[{first}, {second}]")
+    }
+
+    fn of_pair(&self, pair: &str, second: bool) -> String {
+        format!("{pair}[{}]", u8::from(second))
     }
 
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String {
@@ -129,6 +144,8 @@ impl Dialect for Rust {
             UnaryOp::Log => wide("ln"),
             UnaryOp::Log2 => wide("log2"),
             UnaryOp::Radians => wide("to_radians"),
+            // Printed as calls of the module's own function.
+            UnaryOp::PortableCos | UnaryOp::PortableSin => String::new(),
             UnaryOp::Sin => wide("sin"),
             UnaryOp::Sinh => wide("sinh"),
             UnaryOp::Tan => wide("tan"),
@@ -167,9 +184,13 @@ impl Dialect for Rust {
         }
     }
 
-    fn value(&self, output: &Output, components: &[String]) -> String {
+    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {
         match output {
             Output::Number | Output::Enumeration(_) => components.concat(),
+            Output::Record(names) => {
+                let fields: Vec<String> = names.iter().zip(components).map(|(n, c)| format!("{n}: {c}")).collect();
+                format!("{} {{ {} }}", prefix.value(), fields.join(", "))
+            }
             Output::Vector(_) | Output::List { .. } => format!("[{}]", components.join(", ")),
         }
     }

@@ -13,6 +13,8 @@ impl Dialect for Wgsl {
             Type::Uint => "u32".to_owned(),
             Type::Bool => "bool".to_owned(),
             Type::Value(Output::Number) => "f32".to_owned(),
+            Type::Pair => "vec2<f32>".to_owned(),
+            Type::Value(Output::Record(_)) => prefix.value(),
             Type::Value(Output::Vector(size)) => format!("vec{size}<f32>"),
             Type::Value(Output::Enumeration(_)) => "u32".to_owned(),
             Type::Value(Output::List { max, .. }) => format!("array<u32, {}>", max + 1),
@@ -41,6 +43,15 @@ impl Dialect for Wgsl {
     fn result_struct(&self, prefix: &Prefix, output: &Output) -> String {
         let ty = self.ty(&Type::Value(output.clone()), prefix);
         format!("struct {} {{\n    value: {ty},\n    case_id: u32,\n}}", prefix.result())
+    }
+
+    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String {
+        let fields: String = names.iter().map(|name| format!("    {name}: f32,\n")).collect();
+        format!("struct {} {{\n{fields}}}", prefix.value())
+    }
+
+    fn make_pair(&self, first: &str, second: &str) -> String {
+        format!("vec2<f32>({first}, {second})")
     }
 
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String {
@@ -88,9 +99,10 @@ impl Dialect for Wgsl {
         call(name, &[a, b, c])
     }
 
-    fn value(&self, output: &Output, components: &[String]) -> String {
+    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {
         match output {
             Output::Number | Output::Enumeration(_) => components.concat(),
+            Output::Record(_) => format!("{}({})", prefix.value(), components.join(", ")),
             Output::Vector(size) => format!("vec{size}<f32>({})", components.join(", ")),
             Output::List { max, .. } => format!("array<u32, {}>({})", max + 1, components.join(", ")),
         }

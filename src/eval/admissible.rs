@@ -24,6 +24,8 @@
 //!   they are left out: the host has followed the exact one and cannot supply
 //!   what it never produced.
 
+use std::cell::RefCell;
+
 use super::interval::Interval;
 use super::{Interpreter, NeedsFetch};
 use crate::program::{BinaryOp, Cond, CondId, ExprId, Node, Program, UnaryOp, Value};
@@ -94,12 +96,15 @@ pub struct IntervalInterpreter<'p> {
     exact: Interpreter<'p, f32>,
     point: Vec<Option<Value>>,
     choices: Vec<(Choice, bool)>,
+    /// What operations came to in this evaluation, so that what is shared is computed once.
+    known: RefCell<Vec<Option<Interval>>>,
 }
 
 impl<'p> IntervalInterpreter<'p> {
     /// An interpreter of `program`.
     pub fn new(program: &'p Program) -> Self {
-        Self { program, exact: Interpreter::new(program), point: Vec::new(), choices: Vec::new() }
+        let known = RefCell::new(vec![None; program.pool.len()]);
+        Self { program, exact: Interpreter::new(program), point: Vec::new(), choices: Vec::new(), known }
     }
 
     /// All results admissible at a point. Numbers are rounded to `f32` first.
@@ -114,6 +119,7 @@ impl<'p> IntervalInterpreter<'p> {
         self.choices.clear();
         let mut all = Admissible { outcomes: Vec::new(), everything: false };
         let (mut forks, mut checked) = (0, false);
+        self.known.get_mut().fill(None);
         loop {
             match self.evaluate() {
                 Ok(possible) => all.add(possible),
@@ -140,6 +146,7 @@ impl<'p> IntervalInterpreter<'p> {
                 }
                 Some((_, taken)) => *taken = false,
             }
+            self.known.get_mut().fill(None);
         }
     }
 
@@ -205,6 +212,15 @@ impl<'p> IntervalInterpreter<'p> {
     }
 
     fn number(&self, expr: ExprId) -> Result<Interval, Stop> {
+        if let Some(known) = self.known.borrow()[expr.index()] {
+            return Ok(known);
+        }
+        let value = self.operation(expr)?;
+        self.known.borrow_mut()[expr.index()] = Some(value);
+        Ok(value)
+    }
+
+    fn operation(&self, expr: ExprId) -> Result<Interval, Stop> {
         match self.program.pool.node(expr) {
             Node::Const(number) => Ok(Interval::constant(number.get())),
             Node::Input(input) => match self.point[input.index()] {

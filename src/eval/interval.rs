@@ -164,6 +164,8 @@ impl Interval {
             Op::Log2 => a.logarithm(libm::log2),
             Op::Sin => a.wave(libm::sin, PI / 2.0),
             Op::Cos => a.wave(libm::cos, 0.0),
+            Op::PortableSin => a.portable(libm::sin, PI / 2.0),
+            Op::PortableCos => a.portable(libm::cos, 0.0),
             Op::Tan => Self::unary(Op::Sin, a).divide(Self::unary(Op::Cos, a)),
             Op::Atan => a.grows(libm::atan, Error::Ulp(4096.0)),
             Op::Acos if !a.within(-1.0, 1.0) => Self::ANY,
@@ -329,6 +331,26 @@ impl Interval {
             }
         }
         Self::computed(lo, hi, Error::Absolute(2_f64.powi(-11)))
+    }
+
+    /// The portable sine or cosine: 3e-7 absolute, and 4 ULP where the argument is not reduced.
+    /// `peak` is where the function is 1.
+    fn portable(self, f: fn(f64) -> f64, peak: f64) -> Self {
+        if !self.within(-8192.0, 8192.0) {
+            return Self::ANY;
+        }
+        let (a, b) = (f(self.lo), f(self.hi));
+        let (mut lo, mut hi) = (a.min(b), a.max(b));
+        let turns = |value: f64| (value - peak) / PI;
+        let (first, last) = (turns(self.lo).ceil(), turns(self.hi).floor());
+        for turn in [first, first + 1.0] {
+            if turn <= last {
+                let extreme = if turn % 2.0 == 0.0 { 1.0 } else { -1.0 };
+                (lo, hi) = (lo.min(extreme), hi.max(extreme));
+            }
+        }
+        let reduced = !self.within(-0.78, 0.78) || peak == 0.0;
+        Self::computed(lo, hi, if reduced { Error::Absolute(3e-7) } else { Error::Ulp(4.0) })
     }
 
     /// The angle of the point with abscissa `x` and this ordinate: 4096 ULP away from the axes.

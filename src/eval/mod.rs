@@ -4,13 +4,16 @@
 //! program's documentation reads, one input at a time, in `f32` or `f64`, and
 //! counts what it fetches. [`Batch`] gives the same results, bit for bit, for
 //! columns of inputs at once. [`IntervalInterpreter`] gives all results that WGSL's
-//! accuracy rules admit, to judge implementations by. Nothing here knows plans or shading languages.
+//! accuracy rules admit, to judge implementations by, and `Precise` (feature `precise`)
+//! those in hundreds of bits, to judge `f32` by. Nothing here knows plans or shading languages.
 
 mod admissible;
 mod batch;
 mod code;
 mod columns;
 mod interval;
+#[cfg(feature = "precise")]
+mod precise;
 mod residual;
 mod scalar;
 
@@ -18,4 +21,6 @@ pub use admissible::{Admissible, IntervalInterpreter, Possible};
 pub use batch::{Batch, Missing};
 pub use columns::{ABSENT, Column, ColumnError, Columns, Path, Results};
 pub use interval::Interval;
+#[cfg(feature = "precise")]
+pub use precise::{Precise, Unknown};
 pub use scalar::{Interpreter, NeedsFetch, Outcome};

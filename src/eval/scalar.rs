@@ -30,7 +30,13 @@ pub struct Interpreter<'p, T> {
     numbers: Vec<T>,
     fetched: InputSet,
     point: Vec<Option<Value>>,
+    /// What operations came to at this point, so that what is shared is computed
+    /// once; none for programs that are small when written out.
+    known: Vec<Option<T>>,
 }
+
+/// Programs whose expressions are no larger than this, written out, are evaluated without remembering results.
+const SMALL: u32 = 2_000;
 
 impl<'p, T: Real> Interpreter<'p, T> {
     /// An interpreter of `program`.
@@ -42,6 +48,10 @@ impl<'p, T: Real> Interpreter<'p, T> {
             numbers: vec![T::from_f64(0.0); count],
             fetched: InputSet::default(),
             point: Vec::with_capacity(count),
+            known: match program.pool.largest() > SMALL {
+                true => vec![None; program.pool.len()],
+                false => Vec::new(),
+            },
         }
     }
 
@@ -53,6 +63,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
         self.point.clear();
         self.point.extend_from_slice(point);
         self.fetched = InputSet::default();
+        self.known.fill(None);
         for (id, input) in self.program.input_ids() {
             if input.fetched.is_none() {
                 self.load(id)?;
@@ -157,25 +168,29 @@ impl<'p, T: Real> Interpreter<'p, T> {
     /// # Errors
     /// With the first input that is needed but absent.
     pub fn number(&mut self, expr: ExprId) -> Result<T, NeedsFetch> {
-        match self.program.pool.node(expr) {
-            Node::Const(number) => Ok(T::from_f64(number.get())),
+        if let Some(Some(known)) = self.known.get(expr.index()) {
+            return Ok(*known);
+        }
+        let value = match self.program.pool.node(expr) {
+            Node::Const(number) => T::from_f64(number.get()),
             Node::Input(input) => {
                 self.need(input)?;
-                Ok(self.numbers[input.index()])
+                self.numbers[input.index()]
             }
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
-            Node::Result => Ok(T::from_f64(f64::NAN)),
-            Node::Unary(op, a) => Ok(T::unary(op, self.number(a)?)),
-            Node::Binary(op, a, b) => Ok(T::binary(op, self.number(a)?, self.number(b)?)),
-            Node::Ternary(op, a, b, c) => Ok(T::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?)),
-            Node::Select(condition, then, other) => {
-                if self.holds(condition)? {
-                    self.number(then)
-                } else {
-                    self.number(other)
-                }
-            }
+            Node::Result => T::from_f64(f64::NAN),
+            Node::Unary(op, a) => T::unary(op, self.number(a)?),
+            Node::Binary(op, a, b) => T::binary(op, self.number(a)?, self.number(b)?),
+            Node::Ternary(op, a, b, c) => T::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?),
+            Node::Select(condition, then, other) => match self.holds(condition)? {
+                true => self.number(then)?,
+                false => self.number(other)?,
+            },
+        };
+        if let Some(place) = self.known.get_mut(expr.index()) {
+            *place = Some(value);
         }
+        Ok(value)
     }
 }
 

@@ -5,6 +5,7 @@
 //! decides nothing itself: if it disagreed with the interpreter it would be
 //! wrong, not another opinion. [`text`] turns it into something to read.
 
+pub mod reach;
 mod steps;
 pub mod text;
 

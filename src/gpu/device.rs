@@ -149,6 +149,47 @@ impl Gpu {
         Ok(result)
     }
 
+    /// Copies a buffer back and shows what is in it.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub(crate) fn read_buffer<R>(
+        &self,
+        source: &wgpu::Buffer,
+        size: u64,
+        read: impl FnOnce(&[u8]) -> R,
+    ) -> Result<R, Failure> {
+        let back = self.mappable(size);
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_buffer_to_buffer(source, 0, &back, 0, size);
+        self.queue.submit([encoder.finish()]);
+        self.read_back(&back, read)
+    }
+
+    /// Copies a texture back: its rows, and the bytes from one to the next.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub(crate) fn read_texture(&self, source: &wgpu::Texture, texel: u32) -> Result<(Vec<u8>, usize), Failure> {
+        let pitch = (source.width() * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let back = self.mappable(u64::from(pitch) * u64::from(source.height()));
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(pitch), rows_per_image: None };
+        let target = wgpu::TexelCopyBufferInfo { buffer: &back, layout };
+        encoder.copy_texture_to_buffer(source.as_image_copy(), target, source.size());
+        self.queue.submit([encoder.finish()]);
+        Ok((self.read_back(&back, <[u8]>::to_vec)?, pitch as usize))
+    }
+
+    fn mappable(&self, size: u64) -> wgpu::Buffer {
+        self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("back"),
+            size,
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        })
+    }
+
     /// Waits until everything submitted is done.
     ///
     /// # Errors

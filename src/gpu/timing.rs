@@ -67,6 +67,11 @@ pub(crate) struct Marks<'a> {
 }
 
 impl<'a> Marks<'a> {
+    /// For a pass that is not measured.
+    pub(crate) fn none() -> Self {
+        Self { set: None }
+    }
+
     /// For a compute pass.
     pub(crate) fn compute(&self) -> Option<wgpu::ComputePassTimestampWrites<'a>> {
         self.set.map(|query_set| wgpu::ComputePassTimestampWrites {
@@ -131,7 +136,7 @@ impl<'g> Stopwatch<'g> {
         let gpu = self.gpu;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let Some(queries) = &self.queries else {
-            record(&mut encoder, &Marks { set: None });
+            record(&mut encoder, &Marks::none());
             let commands = encoder.finish();
             let start = Instant::now();
             gpu.queue.submit([commands]);

@@ -152,6 +152,9 @@ impl<'p> Plan<'p> {
         let options = options.into();
         let shape = options.shape;
         let built = match shape {
+            Shape::Switch(_) if program.function.is_some() && program.states.count() == 1 => {
+                Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
+            }
             Shape::Ladder => build::ladder(program),
             Shape::Switch(_) => build::switch(program, shape),
         };

@@ -39,6 +39,19 @@ pub struct Proof {
     pub rounding: Option<f64>,
 }
 
+impl Proof {
+    /// What the proofs of two programs found together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            states: self.states + other.states,
+            paths: self.paths + other.paths,
+            identical: self.identical + other.identical,
+            rounding: self.rounding.zip(other.rounding).map(|(a, b)| a.max(b)),
+        }
+    }
+}
+
 impl fmt::Display for Proof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "equal to the table on {} states, {} paths; ", self.states, self.paths)?;
@@ -189,6 +202,11 @@ impl Prover<'_, '_> {
         }
         let mut identical = true;
         for (a, b) in want.values.iter().zip(&got.values) {
+            if a == b || self.decided(*a) == self.decided(*b) {
+                continue;
+            }
+            // Selections that only one side has make further paths.
+            let (a, b) = (&self.resolve(*a, &mut InputSet::default()), &self.resolve(*b, &mut InputSet::default()));
             if a == b {
                 continue;
             }
@@ -263,14 +281,14 @@ impl Prover<'_, '_> {
             }
             for (number, line) in row.lines.iter().enumerate() {
                 if self.holds(line.condition, &mut fetched) {
-                    let values = self.resolve_all(&line.values, &mut fetched);
+                    let values = self.results(&line.values, &mut fetched);
                     return Run { row: Some(index), line: Some(number), values, fetched };
                 }
             }
-            let values = self.resolve_all(&program.default, &mut fetched);
+            let values = self.results(&program.default, &mut fetched);
             return Run { row: Some(index), line: None, values, fetched };
         }
-        let values = self.resolve_all(&program.default, &mut fetched);
+        let values = self.results(&program.default, &mut fetched);
         Run { row: None, line: None, values, fetched }
     }
 
@@ -300,7 +318,7 @@ impl Prover<'_, '_> {
                     for value in values {
                         self.only_fetched(plan.pool.expr_facts(*value).inputs, fetched)?;
                     }
-                    let values = self.resolve_all(values, &mut InputSet::default());
+                    let values = self.results(values, &mut InputSet::default());
                     return Ok(Run { row: *row, line: *line, values, fetched });
                 }
             }
@@ -346,6 +364,77 @@ impl Prover<'_, '_> {
                 let chosen = if self.holds(*c, fetched) { a } else { b };
                 self.holds(*chosen, fetched)
             }
+        }
+    }
+
+    /// What a path comes to. Without fetched inputs it does not matter which
+    /// selections are made: if both sides have the same one, it stays as it is,
+    /// so that functions with many selections do not have a path for every combination.
+    fn results(&mut self, values: &[ExprId], fetched: &mut InputSet) -> Vec<ExprId> {
+        match self.plan.program.fetched.is_empty() {
+            true => values.to_vec(),
+            false => self.resolve_all(values, fetched),
+        }
+    }
+
+    /// An expression in which those selections are made that this path has decided already.
+    fn decided(&mut self, expr: ExprId) -> ExprId {
+        self.decided_memo(expr, &mut HashMap::new())
+    }
+
+    fn decided_memo(&mut self, expr: ExprId, memo: &mut HashMap<ExprId, ExprId>) -> ExprId {
+        if !self.pool.expr_facts(expr).selects {
+            return expr;
+        }
+        if let Some(done) = memo.get(&expr) {
+            return *done;
+        }
+        let result = match self.pool.node(expr) {
+            Node::Const(_) | Node::Result | Node::Input(_) => expr,
+            Node::Unary(op, a) => {
+                let a = self.decided_memo(a, memo);
+                self.pool.rebuild(Node::Unary(op, a))
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.decided_memo(a, memo), self.decided_memo(b, memo));
+                self.pool.rebuild(Node::Binary(op, a, b))
+            }
+            Node::Ternary(op, a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|part| self.decided_memo(part, memo));
+                self.pool.rebuild(Node::Ternary(op, a, b, c))
+            }
+            Node::Select(c, a, b) => match self.decides(c) {
+                Some(true) => self.decided_memo(a, memo),
+                Some(false) => self.decided_memo(b, memo),
+                None => {
+                    let (a, b) = (self.decided_memo(a, memo), self.decided_memo(b, memo));
+                    self.pool.select(c, a, b)
+                }
+            },
+        };
+        memo.insert(expr, result);
+        result
+    }
+
+    /// Whether a condition holds, if this path has decided that already.
+    fn decides(&self, condition: CondId) -> Option<bool> {
+        match self.plan.pool.cond(condition) {
+            Cond::Const(value) => Some(*value),
+            Cond::Level(input, levels) => Some(levels.contains(self.oracle.levels[input.index()])),
+            Cond::Compare(op, a, b) => {
+                let asked = Question::Compare(*op, *a, *b);
+                self.oracle.choices.iter().find(|(q, ..)| *q == asked).map(|(_, answer, _)| *answer == 0)
+            }
+            Cond::Not(a) => self.decides(*a).map(|value| !value),
+            Cond::And(parts) => match parts.iter().map(|part| self.decides(*part)).find(|d| *d != Some(true)) {
+                None => Some(true),
+                Some(first) => first,
+            },
+            Cond::Or(parts) => match parts.iter().map(|part| self.decides(*part)).find(|d| *d != Some(false)) {
+                None => Some(false),
+                Some(first) => first,
+            },
+            Cond::If(c, a, b) => self.decides(*c).and_then(|chosen| self.decides(if chosen { *a } else { *b })),
         }
     }
 

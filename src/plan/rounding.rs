@@ -1,5 +1,7 @@
 //! How far two expressions that are equal over the reals can differ in `f32`.
 
+use std::collections::HashMap;
+
 use crate::program::{BinaryOp, Domain, ExprId, Node, Pool, Program, TernaryOp, UnaryOp};
 
 /// Half a unit in the last place of 1: the relative error of one rounding.
@@ -25,11 +27,26 @@ impl Bound {
 /// value on the whole domain; `None` where this simple analysis knows none.
 /// The expression contains no selections.
 pub(super) fn error(program: &Program, pool: &Pool, expr: ExprId) -> Option<f64> {
-    bound(program, pool, expr).map(|bound| bound.error)
+    bound(program, pool, expr, &mut HashMap::new()).map(|bound| bound.error)
 }
 
-fn bound(program: &Program, pool: &Pool, expr: ExprId) -> Option<Bound> {
-    let of = |expr| bound(program, pool, expr);
+/// The same with the range; what is shared is looked at once.
+fn bound(program: &Program, pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, Option<Bound>>) -> Option<Bound> {
+    if let Some(known) = known.get(&expr) {
+        return *known;
+    }
+    let found = operation(program, pool, expr, known);
+    known.insert(expr, found);
+    found
+}
+
+fn operation(
+    program: &Program,
+    pool: &Pool,
+    expr: ExprId,
+    known: &mut HashMap<ExprId, Option<Bound>>,
+) -> Option<Bound> {
+    let mut of = |expr| bound(program, pool, expr, known);
     match pool.node(expr) {
         Node::Const(number) => {
             let value = number.get();

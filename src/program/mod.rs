@@ -91,12 +91,54 @@ pub struct Program {
     pub symmetries: Vec<Symmetry>,
     /// Inputs with expected results.
     pub examples: Vec<Example>,
+    /// What is said of it, if it is a function of a table.
+    pub function: Option<Function>,
     /// Where the value is meant to have no jumps.
     pub continuity: Vec<Continuity>,
     /// Findings about the table as a whole that are known and stay.
     pub allow: Vec<Allow>,
     /// Set for a table that is kept to be looked at, mistakes included, with the reason.
     pub exhibit: Option<String>,
+}
+
+/// What is said of a program that is a function of a table. The conditions of
+/// its domain stand among [`Program::assumptions`].
+#[derive(Debug, Clone)]
+pub struct Function {
+    /// Name of the table.
+    pub table: String,
+    /// Name of the function in the table.
+    pub name: String,
+    /// Where the function is declared.
+    pub span: Span,
+    /// What it is claimed to be at particular places.
+    pub limits: Vec<Limit>,
+    /// How accurate it is claimed to be.
+    pub accuracy: Option<Accuracy>,
+}
+
+/// What a function is claimed to be at particular places.
+#[derive(Debug, Clone)]
+pub struct Limit {
+    /// The claim.
+    pub span: Span,
+    /// The inputs that are fixed, and at what.
+    pub at: Vec<(InputId, f64)>,
+    /// What the components are there.
+    pub values: Vec<ExprId>,
+}
+
+/// How accurate a function is claimed to be in `f32`: the error is at most
+/// `times` the sum of what half a unit in the last place of each input can
+/// change and of half a unit in the last place of 1 times `scale`.
+#[derive(Debug, Clone)]
+pub struct Accuracy {
+    /// The factor.
+    pub times: f64,
+    /// The natural size of the result.
+    pub scale: ExprId,
+    /// The claim.
+    pub span: Span,
 }
 
 /// What a table returns: one number per component.
@@ -106,6 +148,8 @@ pub enum Output {
     Number,
     /// Two to four numbers.
     Vector(usize),
+    /// Several numbers, each with a name; of functions only.
+    Record(Vec<String>),
     /// The index of a level.
     Enumeration(Levels),
     /// A length, and that many indices of levels followed by zeros up to `max`.
@@ -123,6 +167,7 @@ impl Output {
         match self {
             Output::Number | Output::Enumeration(_) => 1,
             Output::Vector(size) => *size,
+            Output::Record(names) => names.len(),
             Output::List { max, .. } => max + 1,
         }
     }
@@ -161,6 +206,8 @@ pub struct Row {
 pub struct Line {
     /// When it applies.
     pub condition: CondId,
+    /// Where the condition stands; `None` if it has none.
+    pub condition_span: Option<Span>,
     /// The result, one expression per component.
     pub values: Vec<ExprId>,
     /// Where the value stands.
@@ -230,20 +277,62 @@ pub struct Example {
 }
 
 impl Program {
-    /// Reads and checks a table file.
+    /// Reads and checks the file of a table of cases.
     ///
     /// # Errors
-    /// When the file cannot be read or is not a meaningful table.
+    /// When the file cannot be read or is not a meaningful table of cases.
     pub fn read(path: impl AsRef<std::path::Path>) -> Result<Self, Failure> {
         Self::check(&Table::read(path)?)
     }
 
-    /// Checks names, types, domains and references of a table.
+    /// Reads and checks a table file: one program, or one per function.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is not a meaningful table.
+    pub fn read_all(path: impl AsRef<std::path::Path>) -> Result<Vec<Self>, Failure> {
+        Self::check_all(&Table::read(path)?)
+    }
+
+    /// Reads and checks a table file, and picks the function with a name; a
+    /// table of cases is picked by no name.
+    ///
+    /// # Errors
+    /// As [`Self::read_all`], and when there is no such function.
+    pub fn read_function(path: impl AsRef<std::path::Path>, name: Option<&str>) -> Result<Self, Failure> {
+        let table = Table::read(path)?;
+        let mut all = Self::check_all(&table)?;
+        let of = |program: &Self| program.function.as_ref().map(|function| function.name.clone());
+        match all.iter().position(|program| of(program).as_deref() == name) {
+            Some(index) => Ok(all.swap_remove(index)),
+            None => Err(lower::no_function(&table, name)),
+        }
+    }
+
+    /// Checks names, types, domains and references of a table of cases.
     ///
     /// # Errors
     /// With every mistake found, each at its place.
     pub fn check(table: &Table) -> Result<Self, Failure> {
-        lower::program(table)
+        match table.functions.is_empty() {
+            true => lower::program(table),
+            false => Err(lower::no_function(table, None)),
+        }
+    }
+
+    /// Checks a table: one program, or one per function, in the order written.
+    ///
+    /// # Errors
+    /// With every mistake found, each at its place.
+    pub fn check_all(table: &Table) -> Result<Vec<Self>, Failure> {
+        match table.functions.is_empty() {
+            true => lower::program(table).map(|program| vec![program]),
+            false => lower::functions(table),
+        }
+    }
+
+    /// The name of the table: that of the program, or, for a function, the one before its own.
+    pub fn table(&self) -> &str {
+        self.function.as_ref().map_or(&self.name, |function| &function.table)
     }
 
     /// The input with a name.

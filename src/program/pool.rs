@@ -13,6 +13,13 @@ use super::{InputId, Real};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExprId(u32);
 
+impl ExprId {
+    /// Its place in the pool; operands stand before what is made of them.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// A condition in a [`Pool`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CondId(u32);
@@ -75,6 +82,10 @@ pub enum UnaryOp {
     InverseSqrt,
     Log,
     Log2,
+    /// The cosine by portable arithmetic; see `ops`.
+    PortableCos,
+    /// The sine by portable arithmetic; see `ops`.
+    PortableSin,
     Radians,
     Round,
     Saturate,
@@ -114,7 +125,7 @@ pub enum TernaryOp {
 }
 
 /// WGSL names of the operations that are called as functions.
-pub const UNARY_FUNCTIONS: [(&str, UnaryOp); 28] = [
+pub const UNARY_FUNCTIONS: [(&str, UnaryOp); 30] = [
     ("abs", UnaryOp::Abs),
     ("acos", UnaryOp::Acos),
     ("acosh", UnaryOp::Acosh),
@@ -133,6 +144,8 @@ pub const UNARY_FUNCTIONS: [(&str, UnaryOp); 28] = [
     ("inverseSqrt", UnaryOp::InverseSqrt),
     ("log", UnaryOp::Log),
     ("log2", UnaryOp::Log2),
+    ("portableCos", UnaryOp::PortableCos),
+    ("portableSin", UnaryOp::PortableSin),
     ("radians", UnaryOp::Radians),
     ("round", UnaryOp::Round),
     ("saturate", UnaryOp::Saturate),
@@ -332,6 +345,21 @@ impl Pool {
     /// The name a table gives to an expression, if any.
     pub fn label(&self, id: ExprId) -> Option<&str> {
         self.labels.get(&id).map(String::as_str)
+    }
+
+    /// How many expressions there are.
+    pub fn len(&self) -> usize {
+        self.exprs.len()
+    }
+
+    /// The size of the largest expression when written out as a tree; saturates.
+    pub fn largest(&self) -> u32 {
+        self.exprs.iter().map(|(_, facts)| facts.size).max().unwrap_or(0)
+    }
+
+    /// Whether there is no expression.
+    pub fn is_empty(&self) -> bool {
+        self.exprs.is_empty()
     }
 
     /// All names of expressions, in no particular order.

@@ -5,6 +5,9 @@ use std::fmt::Write;
 use super::pool::{BINARY_FUNCTIONS, TERNARY_FUNCTIONS, UNARY_FUNCTIONS};
 use super::{BinaryOp, Comparison, Cond, CondId, Domain, ExprId, Input, LevelKind, Node, Pool, UnaryOp};
 
+/// Longest text, in bytes; what is longer is broken off.
+const MAX_LENGTH: usize = 4_000;
+
 /// Prints terms of one pool.
 #[derive(Clone, Copy)]
 pub struct Printer<'a> {
@@ -55,6 +58,13 @@ impl Printer<'_> {
     }
 
     fn write_expr(&self, out: &mut String, id: ExprId, outer: u8) {
+        // What functions share is written out where it is used, and may be endless.
+        if out.len() > MAX_LENGTH {
+            if !out.ends_with("...") {
+                out.push_str("...");
+            }
+            return;
+        }
         match self.pool.node(id) {
             Node::Const(number) => {
                 let _ = write!(out, "{}", number.get());

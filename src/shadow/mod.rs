@@ -12,10 +12,18 @@
 //! Both executors take the same [`ShadowMap`] and [`Receivers`], so that their
 //! cases can be compared pixel by pixel.
 
+mod case_free;
+pub mod cpu;
 mod frame;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+mod inputs;
+mod probe;
 mod technique;
+pub mod view;
 
 pub use frame::{
     DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Visibility, fixed_depth, max_slope,
 };
+pub use inputs::Vocabulary;
 pub use technique::Technique;

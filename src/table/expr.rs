@@ -35,8 +35,60 @@ pub enum ExprKind {
     If(Box<Expr>, Box<Expr>, Box<Expr>),
     /// `let n = a; b`.
     Let(Spanned<String>, Box<Expr>, Box<Expr>),
-    /// `[a, b]`: a list of enumeration levels.
+    /// `[a, b]`: a list of enumeration levels, or the coefficients of a polynomial.
     List(Vec<Expr>),
+    /// `f(p = a, q = b)`: a function of the table; parameters that are not given
+    /// mean what they mean here.
+    With(Spanned<String>, Vec<(Spanned<String>, Expr)>),
+    /// `F | phi = lo .. hi`: F at `hi` less F at `lo`.
+    Between(Box<Expr>, Spanned<String>, Box<Expr>, Box<Expr>),
+    /// `sum(n in nodes, term)`.
+    Sum(Spanned<String>, SumOver, Box<Expr>),
+    /// `{x: a, y: b}`: several named numbers.
+    Record(Vec<(Spanned<String>, Expr)>),
+}
+
+impl Expr {
+    /// The expressions that this one is made of, in the order written.
+    pub fn parts(&self) -> Vec<&Expr> {
+        match &self.kind {
+            ExprKind::Number(_) | ExprKind::Name(_) => Vec::new(),
+            ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => vec![&**a],
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => vec![&**a, &**b],
+            ExprKind::If(a, b, c) | ExprKind::Between(a, _, b, c) => vec![&**a, &**b, &**c],
+            ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().collect(),
+            ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
+                set.iter().map(|(_, value)| value).collect()
+            }
+            ExprKind::Sum(_, SumOver::Items(_), term) => vec![&**term],
+            ExprKind::Sum(_, SumOver::Range(lo, hi), term) => vec![&**lo, &**hi, &**term],
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn parts_mut(&mut self) -> Vec<&mut Expr> {
+        match &mut self.kind {
+            ExprKind::Number(_) | ExprKind::Name(_) => Vec::new(),
+            ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => vec![&mut **a],
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => vec![&mut **a, &mut **b],
+            ExprKind::If(a, b, c) | ExprKind::Between(a, _, b, c) => vec![&mut **a, &mut **b, &mut **c],
+            ExprKind::Call(_, items) | ExprKind::List(items) => items.iter_mut().collect(),
+            ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
+                set.iter_mut().map(|(_, value)| value).collect()
+            }
+            ExprKind::Sum(_, SumOver::Items(_), term) => vec![&mut **term],
+            ExprKind::Sum(_, SumOver::Range(lo, hi), term) => vec![&mut **lo, &mut **hi, &mut **term],
+        }
+    }
+}
+
+/// What a sum runs over.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SumOver {
+    /// The items of a list of constants.
+    Items(Spanned<String>),
+    /// The whole numbers from one constant to another, both included.
+    Range(Box<Expr>, Box<Expr>),
 }
 
 /// Operators with one operand.

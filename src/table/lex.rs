@@ -24,9 +24,9 @@ impl Token<'_> {
 }
 
 /// Two-character symbols come first, so that the longest one wins.
-const SYMBOLS: [&str; 25] = [
-    "||", "&&", "==", "!=", "<=", ">=", "<", ">", "+", "-", "*", "/", "%", "!", "(", ")", "{", "}", "[", "]", ",", ";",
-    "=", ".", ":",
+const SYMBOLS: [&str; 27] = [
+    "||", "&&", "==", "!=", "<=", ">=", "..", "<", ">", "+", "-", "*", "/", "%", "!", "(", ")", "{", "}", "[", "]",
+    ",", ";", "=", ".", ":", "|",
 ];
 
 /// Splits `text` into tokens; `base` is where the text starts in its source.
@@ -65,7 +65,7 @@ pub(super) fn tokens(text: &str, base: usize) -> Result<Vec<(Span, Token<'_>)>, 
         } else {
             let found = text[start..].chars().next().unwrap_or('?');
             let help = match found {
-                '&' | '|' => "logical operators are written `&&` and `||`",
+                '&' => "logical operators are written `&&` and `||`",
                 _ => {
                     "an expression consists of numbers, names, + - * / % ! && || == != < <= > >= ( ) { } [ ] and if, else, let, in, case"
                 }
@@ -91,7 +91,8 @@ fn number_end(bytes: &[u8], mut at: usize) -> usize {
         at
     };
     at = digits(at);
-    if bytes.get(at) == Some(&b'.') {
+    // In `0..1` the point belongs to what follows.
+    if bytes.get(at) == Some(&b'.') && bytes.get(at + 1) != Some(&b'.') {
         at = digits(at + 1);
     }
     if matches!(bytes.get(at), Some(b'e' | b'E')) {

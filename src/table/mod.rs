@@ -8,10 +8,12 @@
 
 pub mod draw;
 pub mod expr;
+mod functions;
+mod imports;
 mod lex;
 pub(crate) mod names;
 pub(crate) mod parse;
-mod raw;
+pub(crate) mod raw;
 mod read;
 
 use std::path::Path;
@@ -20,6 +22,7 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Failure, Source, Span, Spanned, codes};
 use expr::Expr;
 
+pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
 pub use parse::MAX_DEPTH;
 pub(crate) use raw::nearest;
 
@@ -56,10 +59,18 @@ pub struct Table {
     pub draw: Vec<(Spanned<String>, draw::Draw)>,
     /// What the table returns.
     pub output: Spanned<Output>,
-    /// The rows, in the order written.
+    /// The rows, in the order written; none in a table of functions.
     pub cases: Vec<Case>,
     /// The result where no case matches.
     pub default: Expr,
+    /// Other tables whose functions are called here.
+    pub imports: Vec<Import>,
+    /// Constant data.
+    pub constants: Vec<Constant>,
+    /// Functions for use inside the table.
+    pub helpers: Vec<Helper>,
+    /// Functions that generated code offers; a table has cases or these.
+    pub functions: Vec<Function>,
     /// Where the value is meant to have no jumps.
     pub continuity: Vec<Continuity>,
     /// Findings about the table as a whole that are known and stay.
@@ -307,7 +318,7 @@ impl Table {
     /// # Errors
     /// When the text is not a well-formed table.
     pub fn parse(source: Arc<Source>) -> Result<Self, Failure> {
-        read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })
+        imports::resolve(read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })?)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Parser of the expression language: precedence climbing over tokens.
 //! The grammar is written down in `docs/language.md`.
 
-use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
+use super::expr::{BinaryOp, Expr, ExprKind, SumOver, UnaryOp};
 use super::lex::{self, Token};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 
@@ -12,7 +12,7 @@ pub const MAX_DEPTH: usize = 64;
 /// Parses `text`, which starts at byte `base` of its source.
 pub(crate) fn expression(text: &str, base: usize) -> Result<Expr, Diagnostic> {
     let tokens = lex::tokens(text, base)?;
-    let mut parser = Parser { tokens, at: 0, depth: 0 };
+    let mut parser = Parser { tokens, at: 0, depth: 0, bounds: false };
     if let Token::End = parser.peek() {
         return Err(Diagnostic::error(codes::EXPRESSION, "empty expression")
             .at(Span::new(base, base + text.len()), "expected a value or a condition"));
@@ -31,6 +31,8 @@ struct Parser<'a> {
     tokens: Vec<(Span, Token<'a>)>,
     at: usize,
     depth: usize,
+    /// Whether the bounds of `F | x = lo .. hi` are being read.
+    bounds: bool,
 }
 
 /// Binding strength of a binary operator; comparisons do not chain.
@@ -54,6 +56,8 @@ fn strength(symbol: &str) -> Option<(u8, BinaryOp)> {
 }
 
 const COMPARISON: u8 = 3;
+/// `F | x = lo .. hi` binds weaker than arithmetic and stronger than comparisons.
+const SUM: u8 = 4;
 
 impl<'a> Parser<'a> {
     fn peek(&self) -> Token<'a> {
@@ -109,6 +113,14 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// What stands in brackets is read for itself, even inside of bounds.
+    fn bracketed<T>(&mut self, inner: impl FnOnce(&mut Self) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
+        let bounds = std::mem::replace(&mut self.bounds, false);
+        let result = self.nested(inner);
+        self.bounds = bounds;
+        result
+    }
+
     fn nested<T>(&mut self, inner: impl FnOnce(&mut Self) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
         if self.depth == MAX_DEPTH {
             return Err(too_deep(self.span()));
@@ -142,6 +154,14 @@ impl<'a> Parser<'a> {
         loop {
             let operator = match self.peek() {
                 Token::Word("in") => None,
+                Token::Symbol("|") if weakest <= SUM && !self.bounds => {
+                    links += 1;
+                    if self.depth + links > MAX_DEPTH {
+                        return Err(too_deep(self.span()));
+                    }
+                    left = self.between(left)?;
+                    continue;
+                }
                 Token::Symbol(symbol) => match strength(symbol) {
                     Some(operator) if operator.0 >= weakest => Some(operator),
                     _ => break,
@@ -166,6 +186,27 @@ impl<'a> Parser<'a> {
             left = Expr { span, kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) };
         }
         Ok(left)
+    }
+
+    /// `F | phi = lo .. hi`
+    fn between(&mut self, body: Expr) -> Result<Expr, Diagnostic> {
+        self.next();
+        let variable = self.name("the variable to evaluate between bounds, as in `F | x = lo .. hi`")?;
+        self.expect("=")?;
+        // The bounds end at a further `|`: what stands before that is the whole of this.
+        self.bounds = true;
+        let bounds = self.bounds();
+        self.bounds = false;
+        let (lo, hi) = bounds?;
+        let span = body.span.to(hi.span);
+        Ok(Expr { span, kind: ExprKind::Between(Box::new(body), variable, Box::new(lo), Box::new(hi)) })
+    }
+
+    /// `lo .. hi`
+    fn bounds(&mut self) -> Result<(Expr, Expr), Diagnostic> {
+        let lo = self.nested(|p| p.binary(SUM))?;
+        self.expect("..")?;
+        Ok((lo, self.nested(|p| p.binary(SUM))?))
     }
 
     fn membership(&mut self, left: Expr) -> Result<Expr, Diagnostic> {
@@ -233,10 +274,11 @@ impl<'a> Parser<'a> {
             }
             Token::Symbol("(") => {
                 self.next();
-                let inner = self.nested(|p| p.binary(0))?;
+                let inner = self.bracketed(|p| p.binary(0))?;
                 let end = self.close(")", start)?;
                 Ok(Expr { span: start.to(end), ..inner })
             }
+            Token::Symbol("{") => self.record(),
             Token::Symbol("[") => {
                 self.next();
                 let items = self.arguments("]", start)?;
@@ -249,6 +291,14 @@ impl<'a> Parser<'a> {
                 self.next();
                 let open = self.span();
                 if self.eat("(") {
+                    if word == "sum" && matches!(self.tokens.get(self.at + 1), Some((_, Token::Word("in")))) {
+                        return self.sum(start, open);
+                    }
+                    if matches!(self.peek(), Token::Word(_))
+                        && matches!(self.tokens.get(self.at + 1), Some((_, Token::Symbol("="))))
+                    {
+                        return self.with(Spanned::new(start, word.to_owned()), open);
+                    }
                     let (arguments, end) = self.arguments(")", open)?;
                     let callee = Spanned::new(start, word.to_owned());
                     return Ok(Expr { span: start.to(end), kind: ExprKind::Call(callee, arguments) });
@@ -266,13 +316,63 @@ impl<'a> Parser<'a> {
             return Ok((arguments, here));
         }
         loop {
-            arguments.push(self.nested(|p| p.binary(0))?);
+            arguments.push(self.bracketed(|p| p.binary(0))?);
             if !self.eat(",") {
                 break;
             }
         }
         let end = self.close(end, open)?;
         Ok((arguments, end))
+    }
+
+    /// `f(p = a, q = b)`
+    fn with(&mut self, callee: Spanned<String>, open: Span) -> Result<Expr, Diagnostic> {
+        let mut set = Vec::new();
+        loop {
+            let parameter = self.name("the parameter to set")?;
+            self.expect("=")?;
+            set.push((parameter, self.bracketed(|p| p.binary(0))?));
+            if !self.eat(",") {
+                break;
+            }
+        }
+        let end = self.close(")", open)?;
+        Ok(Expr { span: callee.span.to(end), kind: ExprKind::With(callee, set) })
+    }
+
+    /// `sum(n in nodes, term)`, `sum(i in 1 .. 4, term)`
+    fn sum(&mut self, start: Span, open: Span) -> Result<Expr, Diagnostic> {
+        let variable = self.name("the name of the item")?;
+        self.next();
+        let over = match (self.peek(), self.tokens.get(self.at + 1)) {
+            (Token::Word(list), Some((_, Token::Symbol(",")))) => {
+                SumOver::Items(Spanned::new(self.next().0, list.to_owned()))
+            }
+            _ => {
+                let (lo, hi) = self.bounds()?;
+                SumOver::Range(Box::new(lo), Box::new(hi))
+            }
+        };
+        self.expect(",")?;
+        let term = self.bracketed(|p| p.binary(0))?;
+        let end = self.close(")", open)?;
+        Ok(Expr { span: start.to(end), kind: ExprKind::Sum(variable, over, Box::new(term)) })
+    }
+
+    /// `{x: a, y: b}`
+    fn record(&mut self) -> Result<Expr, Diagnostic> {
+        let open = self.next().0;
+        let mut fields = Vec::new();
+        loop {
+            let name = self.name("the name of a number, as in `{x: 1, y: 2}`")?;
+            self.expect(":")?;
+            fields.push((name, self.bracketed(|p| p.binary(0))?));
+            if !self.eat(",") {
+                break;
+            }
+        }
+        let end = self.close("}", open)?;
+        Ok(Expr { span: open.to(end), kind: ExprKind::Record(fields) })
     }
 
     fn conditional(&mut self) -> Result<Expr, Diagnostic> {
@@ -295,7 +395,7 @@ impl<'a> Parser<'a> {
 
     fn braced(&mut self) -> Result<(Expr, Span), Diagnostic> {
         let open = self.expect("{")?;
-        let body = self.nested(Self::block)?;
+        let body = self.bracketed(Self::block)?;
         let end = self.close("}", open)?;
         Ok((body, end))
     }
@@ -333,7 +433,16 @@ fn check_depth(expr: &Expr, depth: usize) -> Result<(), Diagnostic> {
         ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => below(a).and_then(|()| below(b)),
         ExprKind::If(a, b, c) => below(a).and_then(|()| below(b)).and_then(|()| below(c)),
         ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().try_for_each(below),
-        ExprKind::Case(_, set) => set.iter().try_for_each(|(_, value)| below(value)),
+        ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
+            set.iter().try_for_each(|(_, value)| below(value))
+        }
+        ExprKind::Between(body, _, lo, hi) => below(body).and_then(|()| below(lo)).and_then(|()| below(hi)),
+        ExprKind::Sum(_, over, term) => {
+            if let SumOver::Range(lo, hi) = over {
+                below(lo).and_then(|()| below(hi))?;
+            }
+            below(term)
+        }
     }
 }
 
@@ -368,7 +477,22 @@ mod tests {
             ExprKind::If(c, a, b) => format!("if {} {{{}}} else {{{}}}", shape(c), shape(a), shape(b)),
             ExprKind::Let(n, a, b) => format!("let {} = {}; {}", n.value, shape(a), shape(b)),
             ExprKind::List(items) => format!("[{}]", items.iter().map(shape).collect::<Vec<_>>().join(", ")),
+            ExprKind::With(f, set) => format!("{}({})", f.value, fields(set, " = ")),
+            ExprKind::Between(body, x, lo, hi) => {
+                format!("({} | {} = {} .. {})", shape(body), x.value, shape(lo), shape(hi))
+            }
+            ExprKind::Sum(x, SumOver::Items(list), term) => {
+                format!("sum({} in {}, {})", x.value, list.value, shape(term))
+            }
+            ExprKind::Sum(x, SumOver::Range(lo, hi), term) => {
+                format!("sum({} in {} .. {}, {})", x.value, shape(lo), shape(hi), shape(term))
+            }
+            ExprKind::Record(set) => format!("{{{}}}", fields(set, ": ")),
         }
+    }
+
+    fn fields(set: &[(Spanned<String>, Expr)], symbol: &str) -> String {
+        set.iter().map(|(n, e)| format!("{}{symbol}{}", n.value, shape(e))).collect::<Vec<_>>().join(", ")
     }
 
     fn parsed(text: &str) -> String {
@@ -392,6 +516,19 @@ mod tests {
             "if (H == left) {case(11, V = none)} else {if x {1} else {let q = 2; q}}"
         );
         assert_eq!(parsed("[a, b]"), "[a, b]");
+        assert_eq!(parsed("f(p = a, q = b + 1)"), "f(p = a, q = (b + 1))");
+        assert_eq!(parsed("sum(n in nodes, n.x * f(n.y))"), "sum(n in nodes, (n.x * f(n.y)))");
+        assert_eq!(parsed("sum(i in 0..3, i)"), "sum(i in 0 .. 3, i)");
+        assert_eq!(parsed("let q = 1; {x: a + q, y: -b}"), "let q = 1; {x: (a + q), y: (-b)}");
+    }
+
+    #[test]
+    fn between_bounds_is_weaker_than_arithmetic() {
+        assert_eq!(parsed("a + sin(x) / s | x = lo .. hi"), "((a + (sin(x) / s)) | x = lo .. hi)");
+        assert_eq!(parsed("(F | x = lo..hi) / 2 < b"), "(((F | x = lo .. hi) / 2) < b)");
+        assert_eq!(parsed("b < F | x = lo .. h + 1"), "(b < (F | x = lo .. (h + 1)))");
+        assert_eq!(parsed("F | x = 0 .. 1 | y = 0..2.5"), "((F | x = 0 .. 1) | y = 0 .. 2.5)");
+        assert_eq!(parsed("F | x 0 .. 1"), "error: expected `=`, found a number");
     }
 
     #[test]
@@ -417,6 +554,9 @@ mod tests {
             "if a {".repeat(10_000),
             "a".to_owned() + &" in {b}".repeat(10_000),
             "a".to_owned() + &" .x".repeat(10_000),
+            "a".to_owned() + &" | x = a .. b".repeat(10_000),
+            "{x:".repeat(10_000),
+            "sum(x in a, ".repeat(10_000),
             stairs,
         ] {
             assert!(parsed(&text).contains("nested deeper"), "{}", parsed(&text));

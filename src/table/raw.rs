@@ -17,7 +17,7 @@ use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
 
 /// A piece of RON, not yet interpreted.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Raw<'a>(&'a str);
+pub(crate) struct Raw<'a>(&'a str);
 
 impl<'de: 'a, 'a> Deserialize<'de> for Raw<'a> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
@@ -67,10 +67,10 @@ fn block_comment_end(text: &str) -> Option<usize> {
 
 /// A map in the order written, duplicates included.
 #[derive(Debug)]
-pub(super) struct RawMap<'a>(pub(super) Vec<(Raw<'a>, Raw<'a>)>);
+pub(crate) struct RawMap<'a>(pub(crate) Vec<(Raw<'a>, Raw<'a>)>);
 
 impl<'a> RawMap<'a> {
-    pub(super) fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         RawMap(Vec::new())
     }
 }
@@ -99,22 +99,22 @@ impl<'de: 'a, 'a> Deserialize<'de> for RawMap<'a> {
 
 /// Reads pieces of one source.
 #[derive(Clone, Copy)]
-pub(super) struct Reader<'a> {
+pub(crate) struct Reader<'a> {
     source: &'a Source,
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(source: &'a Source) -> Self {
+    pub(crate) fn new(source: &'a Source) -> Self {
         Self { source }
     }
 
     /// The whole source as one piece.
-    pub(super) fn whole(&self) -> Raw<'a> {
+    pub(crate) fn whole(&self) -> Raw<'a> {
         Raw(&self.source.text)
     }
 
     /// Where the first thing stands that is neither blank nor a comment.
-    pub(super) fn first(&self) -> usize {
+    pub(crate) fn first(&self) -> usize {
         let mut rest = self.source.text.as_str();
         loop {
             rest = rest.trim_start();
@@ -128,14 +128,14 @@ impl<'a> Reader<'a> {
     }
 
     /// Where a piece stands.
-    pub(super) fn span(&self, raw: Raw<'a>) -> Span {
+    pub(crate) fn span(&self, raw: Raw<'a>) -> Span {
         // A `Raw` is a slice of the source, so the difference of the addresses is its offset.
         let start = (raw.0.as_ptr() as usize).saturating_sub(self.source.text.as_ptr() as usize);
         Span::new(start, start + raw.0.len())
     }
 
     /// Reads a piece as `T`.
-    pub(super) fn get<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<T, Diagnostic> {
+    pub(crate) fn get<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<T, Diagnostic> {
         let options = Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
         options.from_str(raw.0).map_err(|error| {
             let base = self.span(raw).start;
@@ -150,12 +150,12 @@ impl<'a> Reader<'a> {
     }
 
     /// Reads a piece as `T` and keeps its place.
-    pub(super) fn spanned<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<Spanned<T>, Diagnostic> {
+    pub(crate) fn spanned<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<Spanned<T>, Diagnostic> {
         Ok(Spanned::new(self.span(raw), self.get(raw)?))
     }
 
     /// A word in quotes or bare: `"left"`, `left`, `0.5`, `true`.
-    pub(super) fn word(&self, raw: Raw<'a>) -> Result<Spanned<String>, Diagnostic> {
+    pub(crate) fn word(&self, raw: Raw<'a>) -> Result<Spanned<String>, Diagnostic> {
         let quoted = raw.0.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
         match quoted {
             // Most words; reading them as RON would only cost time.
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
     }
 
     /// What a piece starts with decides how it is read.
-    pub(super) fn shape(&self, raw: Raw<'a>) -> Shape<'a> {
+    pub(crate) fn shape(&self, raw: Raw<'a>) -> Shape<'a> {
         match raw.0.as_bytes().first() {
             Some(b'"') => Shape::Text,
             Some(b'r') if raw.0.starts_with("r\"") || raw.0.starts_with("r#") => Shape::Text,
@@ -182,7 +182,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The expression in a piece: a string, or a bare number or boolean.
-    pub(super) fn expr(&self, raw: Raw<'a>) -> Result<Expr, Diagnostic> {
+    pub(crate) fn expr(&self, raw: Raw<'a>) -> Result<Expr, Diagnostic> {
         let span = self.span(raw);
         match self.shape(raw) {
             Shape::Text => {
@@ -208,7 +208,7 @@ impl<'a> Reader<'a> {
 
 /// The outward form of a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape<'a> {
+pub(crate) enum Shape<'a> {
     Text,
     Map,
     List,

@@ -27,7 +27,8 @@ struct TableRon<'a> {
     title: String,
     #[serde(default)]
     source: String,
-    hit_policy: Raw<'a>,
+    #[serde(default)]
+    hit_policy: Option<Raw<'a>>,
     #[serde(default = "RawMap::empty")]
     levels: RawMap<'a>,
     inputs: RawMap<'a>,
@@ -39,15 +40,26 @@ struct TableRon<'a> {
     assume: RawMap<'a>,
     #[serde(default = "RawMap::empty")]
     draw: RawMap<'a>,
-    output: Raw<'a>,
-    cases: Vec<Raw<'a>>,
-    default: Raw<'a>,
     #[serde(default = "RawMap::empty")]
     continuity: RawMap<'a>,
     #[serde(default)]
     allow: Vec<Raw<'a>>,
     #[serde(default)]
     exhibit: Option<String>,
+    #[serde(default)]
+    output: Option<Raw<'a>>,
+    #[serde(default)]
+    cases: Option<Vec<Raw<'a>>>,
+    #[serde(default)]
+    default: Option<Raw<'a>>,
+    #[serde(default = "RawMap::empty")]
+    imports: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    constants: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    helpers: RawMap<'a>,
+    #[serde(default)]
+    functions: Option<RawMap<'a>>,
 }
 
 #[derive(Deserialize)]
@@ -228,20 +240,22 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     }
     let mut errors = Errors(Vec::new());
     let name = errors.take(read.spanned::<String>(ron.name));
-    let hit_policy = errors.take(read.hit_policy(ron.hit_policy));
+    let decision = errors.take(read.decision(&ron));
     let levels = errors.each(ron.levels.0, |(n, v)| Ok((read.word(n)?, read.levels(&read.get(v)?)?)));
     let inputs = errors.each(ron.inputs.0, |(n, v)| read.input(n, v));
     let names = errors.each(ron.names.0, |(n, v)| Ok(Named { name: read.word(n)?, value: read.condition(v)? }));
     let symmetries = errors.each(ron.symmetries.0, |(n, v)| read.symmetry(n, v));
     let assumptions = errors.each(ron.assume.0, |(n, v)| read.assumption(n, v));
     let draw = errors.each(ron.draw.0, |(n, v)| read.draw(n, v));
-    let output = errors.take(read.output(ron.output));
-    let cases = errors.each(ron.cases, |raw| read.case(raw));
-    let default = errors.take(read.expr(ron.default));
     let continuity = errors.each(ron.continuity.0, |(n, v)| read.continuity(n, v));
     let allow = errors.each(ron.allow, |raw| read.allow(raw));
-    match (name, hit_policy, output, default) {
-        (Some(name), Some(hit_policy), Some(output), Some(default)) if errors.0.is_empty() => Ok(Table {
+    let cases = errors.each(ron.cases.unwrap_or_default(), |raw| read.case(raw));
+    let imports = errors.each(ron.imports.0, |(n, v)| read.import(n, v));
+    let constants = errors.each(ron.constants.0, |(n, v)| read.constant(n, v));
+    let helpers = errors.each(ron.helpers.0, |(n, v)| read.helper(n, v));
+    let functions = errors.each(ron.functions.map_or_else(Vec::new, |map| map.0), |(n, v)| read.function(n, v));
+    match (name, decision) {
+        (Some(name), Some(Decision { hit_policy, output, default })) if errors.0.is_empty() => Ok(Table {
             source: source.clone(),
             name,
             title: ron.title,
@@ -256,6 +270,10 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
             output,
             cases,
             default,
+            imports,
+            constants,
+            helpers,
+            functions,
             continuity,
             allow,
             exhibit: ron.exhibit,
@@ -276,7 +294,61 @@ impl Errors {
     }
 }
 
+/// What a table of cases says besides its cases.
+struct Decision {
+    hit_policy: Spanned<HitPolicy>,
+    output: Spanned<Output>,
+    default: Expr,
+}
+
 impl<'a> Reader<'a> {
+    /// A table has cases, with what belongs to them, or functions. Those that only have functions
+    /// get what stands for nothing.
+    fn decision(&self, ron: &TableRon<'a>) -> Result<Decision> {
+        let missing = |field: &str| {
+            Diagnostic::error(codes::STRUCTURE, format!("the field `{field}` is missing in `Table`"))
+                .at(self.first_word(), "here")
+        };
+        let Some(functions) = &ron.functions else {
+            return Ok(Decision {
+                hit_policy: self.hit_policy(ron.hit_policy.ok_or_else(|| missing("hit_policy"))?)?,
+                output: self.output(ron.output.ok_or_else(|| missing("output"))?)?,
+                default: {
+                    ron.cases.as_ref().ok_or_else(|| missing("cases"))?;
+                    self.expr(ron.default.ok_or_else(|| missing("default"))?)?
+                },
+            });
+        };
+        let odd =
+            [ron.hit_policy, ron.output, ron.default, ron.cases.as_ref().and_then(|cases| cases.first().copied())];
+        if let Some(odd) = odd.into_iter().flatten().next() {
+            return Err(Diagnostic::error(codes::FUNCTION_SHAPE, "a table has cases or functions, not both")
+                .at(self.span(odd), "belongs to a table of cases")
+                .help("put the functions into a table of their own and import it")
+                .help("what only this table calls stands under `helpers`, also in a table of cases"));
+        }
+        let at = self.first_word();
+        if functions.0.is_empty() {
+            return Err(Diagnostic::error(codes::FUNCTION_SHAPE, "the table has no functions").at(at, "this table"));
+        }
+        Ok(Decision {
+            hit_policy: Spanned::new(at, HitPolicy::First),
+            output: Spanned::new(at, Output::Number(None)),
+            default: Expr { span: at, kind: ExprKind::Number(0.0) },
+        })
+    }
+
+    /// The place of what the source begins with.
+    fn first_word(&self) -> Span {
+        let start = self.first();
+        Span::new(start, start + 1)
+    }
+
+    pub(super) fn erratum(&self, raw: Raw<'a>) -> Result<Erratum> {
+        let ron: ErratumRon = self.get(raw)?;
+        Ok(Erratum { number: ron.no, printed: ron.printed, meant: ron.meant })
+    }
+
     fn hit_policy(&self, raw: Raw<'a>) -> Result<Spanned<HitPolicy>> {
         let value = match self.shape(raw) {
             Shape::Word("First") => HitPolicy::First,
@@ -429,7 +501,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn assumption(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Assumption> {
+    pub(super) fn assumption(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Assumption> {
         let name = self.word(name)?;
         let (condition, doc) = match self.shape(raw) {
             Shape::Tuple => {
@@ -490,7 +562,7 @@ impl<'a> Reader<'a> {
         Ok(Spanned::new(span, output))
     }
 
-    fn case(&self, raw: Raw<'a>) -> Result<Case> {
+    pub(super) fn case(&self, raw: Raw<'a>) -> Result<Case> {
         let span = self.span(raw);
         let ron: CaseRon<'a> = self.get(raw)?;
         let id = self.spanned::<u32>(ron.id)?;
@@ -538,7 +610,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `("px + py - 1", "NB == left")`: a value and when it applies.
-    fn line(&self, raw: Raw<'a>) -> Result<Line> {
+    pub(super) fn line(&self, raw: Raw<'a>) -> Result<Line> {
         match self.shape(raw) {
             Shape::Tuple => {
                 let (value, condition): (Raw<'a>, Raw<'a>) = self.get(raw)?;
@@ -549,7 +621,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `({"dH": 0.75, "V": "top"}, 0.5)`: inputs and the expected value.
-    fn example(&self, raw: Raw<'a>) -> Result<Example> {
+    pub(super) fn example(&self, raw: Raw<'a>) -> Result<Example> {
         let (inputs, value): (RawMap<'a>, Raw<'a>) = self.get(raw)?;
         let inputs =
             inputs.0.iter().map(|(n, v)| Ok((self.word(*n)?, self.level_or_expr(*v)?))).collect::<Result<_>>()?;

@@ -5,8 +5,12 @@ use super::scope::Env;
 use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
-use crate::program::pool::{self, BinaryOp, ExprId, TernaryOp, UnaryOp};
+use crate::program::pool::{self, BinaryOp, ExprId, Node, TernaryOp, UnaryOp};
 use crate::table::expr::Expr;
+
+/// Functions that are not operations on numbers.
+pub(super) const BUILT_IN: [&str; 12] =
+    ["f32", "select", "vec2", "vec3", "vec4", "dot", "length", "distance", "normalize", "cross", "poly", "sum"];
 
 impl Lowering<'_> {
     pub(super) fn call(
@@ -42,10 +46,22 @@ impl Lowering<'_> {
             }
             _ => {}
         }
+        if name == "poly" {
+            return self.polynomial(arguments, span, env);
+        }
+        if let Some(callee) = self.callee(name, env.scope) {
+            return self.call_in_order(callee, arguments, span, env);
+        }
         if let Some((_, op)) = pool::UNARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
             arity(1)?;
             let a = self.term(&arguments[0], env, Expected::Anything)?;
-            return self.map1(*op, a, span);
+            // What claims an accuracy cannot rely on a sine that may be off by 2^-11.
+            let op = match op {
+                UnaryOp::Sin if self.portable => UnaryOp::PortableSin,
+                UnaryOp::Cos if self.portable => UnaryOp::PortableCos,
+                op => *op,
+            };
+            return self.map1(op, a, span);
         }
         if let Some((_, op)) = pool::BINARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
             arity(2)?;
@@ -64,27 +80,63 @@ impl Lowering<'_> {
 
     pub(super) fn map1(&mut self, op: UnaryOp, a: Term, span: Span) -> Result<Term> {
         match a {
-            Term::Number(a) => {
-                let result = self.pool.unary(op, a);
-                Ok(Term::Number(self.finite(result, span)?))
-            }
+            Term::Number(a) => Ok(Term::Number(self.unary(op, a, span)?)),
             Term::Vector(parts) => {
-                let parts = parts.into_iter().map(|a| {
-                    let result = self.pool.unary(op, a);
-                    self.finite(result, span)
-                });
-                Ok(Term::Vector(parts.collect::<Result<_>>()?))
+                Ok(Term::Vector(parts.into_iter().map(|a| self.unary(op, a, span)).collect::<Result<_>>()?))
+            }
+            Term::Record(parts) => {
+                let parts = parts.into_iter().map(|(name, a)| Ok((name, self.unary(op, a, span)?)));
+                Ok(Term::Record(parts.collect::<Result<_>>()?))
             }
             other => Err(self.no_number(&other, span)),
         }
     }
 
+    /// An operation on one number. In a function that is called with constants,
+    /// what they make constant is computed when the shader runs, unless nobody can tell.
+    fn unary(&mut self, op: UnaryOp, a: ExprId, span: Span) -> Result<ExprId> {
+        let result = match self.calling.is_empty() {
+            true => self.pool.unary(op, a),
+            false => self.pool.rebuild(Node::Unary(op, a)),
+        };
+        self.finite(result, span)
+    }
+
+    fn binary_operation(&mut self, op: BinaryOp, a: ExprId, b: ExprId, span: Span) -> Result<ExprId> {
+        let result = match self.calling.is_empty() {
+            true => self.pool.binary(op, a, b),
+            false => self.pool.rebuild(Node::Binary(op, a, b)),
+        };
+        self.finite(result, span)
+    }
+
     pub(super) fn map2(&mut self, op: BinaryOp, a: Term, b: Term, span: Span) -> Result<Term> {
+        // Records go with records of the same names, and with numbers.
+        let names = match (&a, &b) {
+            (Term::Record(x), Term::Record(y)) if !x.iter().map(|p| &p.0).eq(y.iter().map(|p| &p.0)) => {
+                let message = format!("{} and {} do not go together", self.describe(&a), self.describe(&b));
+                return Err(Diagnostic::error(codes::TYPE, message).at(span, "in this operation"));
+            }
+            (Term::Record(parts), Term::Record(_) | Term::Number(_)) | (Term::Number(_), Term::Record(parts)) => {
+                Some(parts.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>())
+            }
+            _ => None,
+        };
+        if let Some(names) = names {
+            let values = |term: Term| match term {
+                Term::Record(parts) => parts.into_iter().map(|(_, part)| part).collect(),
+                Term::Number(number) => vec![number; names.len()],
+                _ => Vec::new(),
+            };
+            let pairs = values(a).into_iter().zip(values(b));
+            let parts: Vec<ExprId> =
+                pairs.map(|(a, b)| self.binary_operation(op, a, b, span)).collect::<Result<_>>()?;
+            return Ok(Term::Record(names.into_iter().zip(parts).collect()));
+        }
         let mut parts = Vec::new();
         let (a, b, scalar) = self.broadcast(a, b, span)?;
         for (a, b) in a.into_iter().zip(b) {
-            let result = self.pool.binary(op, a, b);
-            parts.push(self.finite(result, span)?);
+            parts.push(self.binary_operation(op, a, b, span)?);
         }
         Ok(if scalar { Term::Number(parts[0]) } else { Term::Vector(parts) })
     }
@@ -114,7 +166,10 @@ impl Lowering<'_> {
                 )
                 .at(span, "shading languages leave this undefined"));
             }
-            let result = self.pool.ternary(op, a, b, c);
+            let result = match self.calling.is_empty() {
+                true => self.pool.ternary(op, a, b, c),
+                false => self.pool.rebuild(Node::Ternary(op, a, b, c)),
+            };
             parts.push(self.finite(result, span)?);
         }
         Ok(if scalar && also_scalar { Term::Number(parts[0]) } else { Term::Vector(parts) })
@@ -145,6 +200,16 @@ impl Lowering<'_> {
     }
 
     pub(super) fn swizzle(&mut self, value: Term, letters: &str, span: Span) -> Result<Term> {
+        if let Term::Record(parts) = &value
+            && let Some((_, number)) = parts.iter().find(|(name, _)| name == letters)
+        {
+            return Ok(Term::Number(*number));
+        }
+        if let Term::Record(parts) = &value {
+            let known = parts.iter().map(|(name, _)| name.as_str());
+            let error = Diagnostic::error(codes::TYPE, format!("the record has no `{letters}`"));
+            return Err(error.at(span, "not in it").help(format!("it has {}", known.collect::<Vec<_>>().join(", "))));
+        }
         let Term::Vector(parts) = &value else {
             return Err(type_error(span, &self.describe(&value), "only vectors have components"));
         };
@@ -201,7 +266,7 @@ impl Lowering<'_> {
                 arity(1)?;
                 None
             }
-            _ => return Err(self.unknown_function(function)),
+            _ => return Err(self.unknown_function(function, env)),
         };
         let mut terms = Vec::new();
         for argument in arguments {
@@ -273,12 +338,14 @@ impl Lowering<'_> {
         self.pool.unary(UnaryOp::Sqrt, square)
     }
 
-    pub(super) fn unknown_function(&self, function: &Spanned<String>) -> Diagnostic {
+    pub(super) fn unknown_function(&self, function: &Spanned<String>, env: &Env) -> Diagnostic {
+        let own = self.callable(env.scope);
         let known = || {
             let named =
                 pool::UNARY_FUNCTIONS.iter().map(|(n, _)| *n).chain(pool::BINARY_FUNCTIONS.iter().map(|(n, _)| *n));
             let named = named.chain(pool::TERNARY_FUNCTIONS.iter().map(|(n, _)| *n));
-            named.chain(["f32", "select", "vec2", "vec3", "vec4", "dot", "length", "distance", "normalize", "cross"])
+            let named = named.chain(BUILT_IN);
+            own.iter().map(String::as_str).chain(named)
         };
         let error = Diagnostic::error(codes::CALL, format!("there is no function `{}`", function.value))
             .at(function.span, "unknown function");

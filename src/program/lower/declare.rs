@@ -11,7 +11,7 @@ use crate::program::{InputId, Output};
 use crate::table::{self, names};
 
 impl<'t> Lowering<'t> {
-    pub(super) fn declare(&mut self, errors: &mut Vec<Diagnostic>) {
+    pub(super) fn declare(&mut self, inputs: &[&'t table::Input], errors: &mut Vec<Diagnostic>) {
         let table = self.table;
         if let Err(error) = names::check(&table.name.value, "a table", table.name.span) {
             errors.push(error);
@@ -29,16 +29,15 @@ impl<'t> Lowering<'t> {
                 self.sets.push(levels);
             }
         }
-        if table.inputs.len() > InputSet::CAPACITY {
-            let message = format!("{} inputs, at most {} are possible", table.inputs.len(), InputSet::CAPACITY);
+        if inputs.len() > InputSet::CAPACITY {
+            let message = format!("{} inputs, at most {} are possible", inputs.len(), InputSet::CAPACITY);
             errors.push(
-                Diagnostic::error(codes::DOMAIN, message)
-                    .at(table.inputs[InputSet::CAPACITY].name.span, "one too many"),
+                Diagnostic::error(codes::DOMAIN, message).at(inputs[InputSet::CAPACITY].name.span, "one too many"),
             );
             return;
         }
         taken.clear();
-        for input in &table.inputs {
+        for input in inputs {
             self.take_name(&input.name, "an input", &mut taken, errors);
             if let Some(checked) = keep(self.input(input), errors) {
                 self.input_index.insert(&input.name.value, InputId::new(self.inputs.len()));
@@ -48,6 +47,9 @@ impl<'t> Lowering<'t> {
         for (index, named) in table.names.iter().enumerate() {
             self.take_name(&named.name, "a named value", &mut taken, errors);
             self.named_index.insert(&named.name.value, index);
+        }
+        for constant in &table.constants {
+            self.take_name(&constant.name, "a constant", &mut taken, errors);
         }
         for (index, case) in table.cases.iter().enumerate() {
             if let Some(first) = self.case_index.insert(case.id.value, index) {
@@ -59,7 +61,7 @@ impl<'t> Lowering<'t> {
                 );
             }
         }
-        if table.cases.is_empty() {
+        if table.cases.is_empty() && table.functions.is_empty() {
             errors.push(
                 Diagnostic::error(codes::EMPTY, "the table has no cases")
                     .at(table.name.span, "this table")
@@ -87,7 +89,7 @@ impl<'t> Lowering<'t> {
         // Generated constants are the same in capitals, structures in camel case.
         let table = self.table.name.value.to_ascii_lowercase();
         let lower = identifier.to_ascii_lowercase();
-        let structure = ["result", "site"].iter().any(|what| lower == table.replace('_', "") + what);
+        let structure = ["result", "site", "value"].iter().any(|what| lower == table.replace('_', "") + what);
         if identifier == self.table.name.value || lower.starts_with(&format!("{table}_")) || structure {
             let message = format!("`{}` would hide what is generated for the table", name.value);
             errors.push(

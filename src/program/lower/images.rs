@@ -139,7 +139,7 @@ impl<'t> Lowering<'t> {
                     let (one, zero) = (Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
                     levels.push((input, LevelTerm::If(condition, one, zero)));
                 }
-                Term::Vector(_) | Term::List(_) => {
+                Term::Vector(_) | Term::List(_) | Term::Record(_) => {
                     return Err(Diagnostic::error(codes::SYMMETRY, "an input has a single value").at(span, "here"));
                 }
             }

@@ -4,8 +4,10 @@ mod calls;
 mod declare;
 mod draw;
 mod examples;
+mod functions;
 mod images;
 mod levels;
+mod library;
 mod rows;
 mod scope;
 mod terms;
@@ -18,11 +20,12 @@ use super::domain::{Input, LevelKind, Levels, StateSpace};
 use super::pool::{InputSet, Pool};
 use super::{Assumption, InputId, Output, Program};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::table::{Table, names};
+use crate::table::{self, Table, names};
 use scope::Env;
 use terms::Term;
 
 pub use levels::LevelTerm;
+pub(super) use library::{functions, no_function};
 
 type Result<T> = std::result::Result<T, Diagnostic>;
 
@@ -45,7 +48,16 @@ struct Lowering<'t> {
     inputs: Vec<Input>,
     named_index: HashMap<&'t str, usize>,
     named_terms: Vec<Option<Term>>,
-    resolving: Vec<usize>,
+    /// The named values being lowered, with their scopes.
+    resolving: Vec<(usize, usize)>,
+    /// This table, and those that it imports, directly or not.
+    scopes: Vec<&'t Table>,
+    /// The scope that an imported table has, by the scope that imports it and the name there.
+    import_index: HashMap<(usize, &'t str), usize>,
+    /// The functions being called, outermost first, with their scopes.
+    calling: Vec<(usize, &'t str)>,
+    /// Whether sine and cosine mean the portable ones.
+    portable: bool,
     /// How deep [`Lowering::term`] is nested in itself.
     depth: u32,
     input_index: HashMap<&'t str, InputId>,
@@ -58,29 +70,13 @@ struct Lowering<'t> {
 /// Checks a table.
 pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
     let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
+    library::check_imports(table)?;
     let mut errors = Vec::new();
-    let mut lowering = Lowering {
-        table,
-        pool: Pool::default(),
-        sets: vec![Levels {
-            names: vec!["false".to_owned(), "true".to_owned()],
-            codes: vec![0.0, 1.0],
-            kind: LevelKind::Bool,
-        }],
-        input_sets: Vec::new(),
-        inputs: Vec::new(),
-        named_index: HashMap::new(),
-        named_terms: vec![None; table.names.len()],
-        resolving: Vec::new(),
-        depth: 0,
-        input_index: HashMap::new(),
-        set_index: HashMap::new(),
-        case_index: HashMap::new(),
-        output: Output::Number,
-        output_set: SetId::BOOL,
-    };
+    let mut lowering = Lowering::new(table);
     // Without sound declarations nothing that follows could be judged.
-    lowering.declare(&mut errors);
+    let inputs: Vec<&table::Input> = table.inputs.iter().collect();
+    lowering.declare(&inputs, &mut errors);
+    lowering.declare_functions(&mut errors);
     if !errors.is_empty() {
         return Err(fail(errors));
     }
@@ -95,7 +91,55 @@ pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
     }
 }
 
-impl Lowering<'_> {
+impl<'t> Lowering<'t> {
+    fn new(table: &'t Table) -> Self {
+        let mut lowering = Lowering {
+            table,
+            pool: Pool::default(),
+            sets: vec![Levels {
+                names: vec!["false".to_owned(), "true".to_owned()],
+                codes: vec![0.0, 1.0],
+                kind: LevelKind::Bool,
+            }],
+            input_sets: Vec::new(),
+            inputs: Vec::new(),
+            named_index: HashMap::new(),
+            named_terms: vec![None; table.names.len()],
+            resolving: Vec::new(),
+            scopes: Vec::new(),
+            import_index: HashMap::new(),
+            calling: Vec::new(),
+            portable: false,
+            depth: 0,
+            input_index: HashMap::new(),
+            set_index: HashMap::new(),
+            case_index: HashMap::new(),
+            output: Output::Number,
+            output_set: SetId::BOOL,
+        };
+        lowering.open_scope(table);
+        lowering
+    }
+
+    /// Gives a table and those that it imports a scope each.
+    fn open_scope(&mut self, table: &'t Table) -> usize {
+        let scope = self.scopes.len();
+        self.scopes.push(table);
+        for import in &table.imports {
+            if let Some(imported) = &import.table {
+                let inner = self.open_scope(imported);
+                self.import_index.insert((scope, &import.alias.value), inner);
+            }
+        }
+        scope
+    }
+
+    /// The inputs that are fetched.
+    fn fetched(&self) -> InputSet {
+        let fetched = self.inputs.iter().enumerate().filter(|(_, i)| i.fetched.is_some());
+        fetched.fold(InputSet::default(), |set, (i, _)| set.or(InputSet::one(InputId::new(i))))
+    }
+
     fn finish(mut self, states: StateSpace, errors: &mut Vec<Diagnostic>) -> Option<Program> {
         let table = self.table;
         for named in &table.names {
@@ -130,11 +174,8 @@ impl Lowering<'_> {
                 examples.extend(keep(self.example(row, example), errors));
             }
         }
-        // The same mistake in a shared name is found once per use.
-        let mut seen = HashSet::new();
-        errors.retain(|e| seen.insert((e.code, e.labels.first().map(|l| (l.span, l.message.clone())))));
-        let fetched = self.inputs.iter().enumerate().filter(|(_, i)| i.fetched.is_some());
-        let fetched = fetched.fold(InputSet::default(), |set, (i, _)| set.or(InputSet::one(InputId::new(i))));
+        once(errors);
+        let fetched = self.fetched();
         Some(Program {
             source: table.source.clone(),
             name: table.name.value.clone(),
@@ -153,11 +194,18 @@ impl Lowering<'_> {
             draw,
             symmetries,
             examples,
+            function: None,
             continuity,
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
         })
     }
+}
+
+/// The same mistake in a shared name or function is found once per use.
+fn once(errors: &mut Vec<Diagnostic>) {
+    let mut seen = HashSet::new();
+    errors.retain(|e| seen.insert((e.code, e.labels.first().map(|l| (l.span, l.message.clone())))));
 }
 
 fn keep<T>(result: Result<T>, errors: &mut Vec<Diagnostic>) -> Option<T> {

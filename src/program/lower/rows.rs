@@ -20,6 +20,7 @@ use crate::table::{self, Case, CaseBody};
 /// A line of a row, its value not yet tied to the output.
 pub(super) struct LoweredLine {
     pub(super) condition: CondId,
+    pub(super) condition_span: Option<Span>,
     pub(super) value: Term,
     pub(super) span: Span,
 }
@@ -37,7 +38,9 @@ impl<'t> Lowering<'t> {
                 Some(map) => self.apply_result(map, line.value, &env)?,
                 None => line.value,
             };
-            Ok(Line { condition: line.condition, values: self.result(value, line.span)?, span: line.span })
+            let values = self.result(value, line.span)?;
+            let (condition, condition_span) = (line.condition, line.condition_span);
+            Ok(Line { condition, condition_span, values, span: line.span })
         });
         let lines = lines.collect::<Result<Vec<_>>>()?;
         Ok(Row {
@@ -61,7 +64,10 @@ impl<'t> Lowering<'t> {
     ) -> Result<(CondId, Vec<LoweredLine>, Option<Expr>)> {
         let case = self.find_case(id)?;
         match &case.body {
-            CaseBody::Rows { when, lines } => Ok((self.condition(when, env)?, self.lines(lines, env)?, None)),
+            CaseBody::Rows { when, lines } => {
+                let expected = self.expected_output();
+                Ok((self.condition(when, env)?, self.lines(lines, env, expected)?, None))
+            }
             CaseBody::Image { case: base, under } => {
                 let base_case = self.find_case(base)?;
                 let CaseBody::Rows { when, lines } = &base_case.body else {
@@ -83,7 +89,8 @@ impl<'t> Lowering<'t> {
                 };
                 let images = self.images(&symmetry.map, env)?;
                 let inner = self.mapped_env(images, env);
-                Ok((self.condition(when, &inner)?, self.lines(lines, &inner)?, symmetry.result.clone()))
+                let expected = self.expected_output();
+                Ok((self.condition(when, &inner)?, self.lines(lines, &inner, expected)?, symmetry.result.clone()))
             }
         }
     }
@@ -106,15 +113,15 @@ impl<'t> Lowering<'t> {
         }
     }
 
-    pub(super) fn lines(&mut self, lines: &[table::Line], env: &Env) -> Result<Vec<LoweredLine>> {
-        let expected = self.expected_output();
+    pub(super) fn lines(&mut self, lines: &[table::Line], env: &Env, expected: Expected) -> Result<Vec<LoweredLine>> {
         let lines = lines.iter().map(|line| {
             let condition = match &line.condition {
                 Some(condition) => self.condition(condition, env)?,
                 None => self.pool.always(true),
             };
             let value = self.term(&line.value, env, expected)?;
-            Ok(LoweredLine { condition, value, span: line.value.span })
+            let condition_span = line.condition.as_ref().map(|condition| condition.span);
+            Ok(LoweredLine { condition, condition_span, value, span: line.value.span })
         });
         lines.collect()
     }
@@ -216,7 +223,7 @@ impl<'t> Lowering<'t> {
 
     pub(super) fn expected_output(&self) -> Expected {
         match &self.output {
-            Output::Number | Output::Vector(_) => Expected::Anything,
+            Output::Number | Output::Vector(_) | Output::Record(_) => Expected::Anything,
             Output::Enumeration(_) => Expected::Level(self.output_set),
             Output::List { max, .. } => Expected::List(self.output_set, *max),
         }
@@ -236,6 +243,12 @@ impl<'t> Lowering<'t> {
                 vec![self.level_number(set, &term, |_, level| f64::from(level))]
             }
             (Output::List { .. }, Term::List(parts)) => parts,
+            (Output::Record(names), Term::Record(parts)) if parts.iter().map(|(name, _)| name).eq(names) => {
+                parts.into_iter().map(|(_, part)| part).collect()
+            }
+            (Output::Record(names), _) => {
+                return wrong("something else", &format!("a record of {}", names.join(", ")));
+            }
             (Output::Number, Term::Bool(_)) => return wrong("a condition", "a number"),
             (Output::Number, _) => return wrong("not a number", "a number"),
             (Output::Vector(size), _) => return wrong("something else", &format!("a vector of {size}")),

@@ -27,6 +27,12 @@ pub(super) struct Env {
     pub(super) cases: Vec<u32>,
     /// Whether this is the value of a referenced case, where no further reference is allowed.
     pub(super) referenced: bool,
+    /// In a function that is called: its parameters, which take the place of the inputs.
+    pub(super) parameters: Option<Rc<Vec<(String, Term)>>>,
+    /// The table that names are of: this one, or one that it imports.
+    pub(super) scope: usize,
+    /// In constant data: how many constants can be used, those declared before.
+    pub(super) constants: Option<usize>,
 }
 
 impl Env {
@@ -73,10 +79,22 @@ impl Lowering<'_> {
         if let Some((_, term)) = env.locals.iter().rev().find(|(local, _)| local.value == name) {
             return Ok(Some(term.clone()));
         }
-        if let Some(input) = self.input_named(name) {
-            return Ok(Some(self.input_term(input, env)));
+        match &env.parameters {
+            Some(parameters) => {
+                if let Some((_, term)) = parameters.iter().find(|(parameter, _)| parameter == name) {
+                    return Ok(Some(term.clone()));
+                }
+            }
+            None => {
+                if let Some(input) = self.input_named(name) {
+                    return Ok(Some(self.input_term(input, env)));
+                }
+            }
         }
-        self.named(name, env)
+        match self.named_constant(name, env)? {
+            Some(term) => Ok(Some(term)),
+            None => self.named(name, env),
+        }
     }
 
     /// Refuses local names that are malformed or that would hide something.
@@ -86,10 +104,23 @@ impl Lowering<'_> {
             return Err(Diagnostic::error(codes::BAD_NAME, "the name of a local value contains no dot")
                 .at(name.span, "dots group inputs"));
         }
+        let table = self.scopes[env.scope];
         let locals = env.locals.iter().map(|(local, _)| (local, "a local value"));
-        let inputs = self.table.inputs.iter().map(|input| (&input.name, "an input"));
-        let named = self.table.names.iter().map(|named| (&named.name, "a named value"));
-        match locals.chain(inputs).chain(named).find(|(other, _)| names::identifier(&other.value) == name.value) {
+        // In a function only its own parameters are in sight; a helper's are no inputs.
+        let visible = |name: &str| env.parameters.as_ref().is_none_or(|all| all.iter().any(|(p, _)| p == name));
+        let inputs = table.inputs.iter().map(|input| (&input.name, "an input")).filter(|(n, _)| visible(&n.value));
+        let helpers =
+            table.helpers.iter().filter(|helper| self.calling.last() == Some(&(env.scope, &helper.name.value)));
+        let parameters = helpers.flat_map(|helper| &helper.parameters).map(|name| (name, "a parameter"));
+        let constants = table.constants.iter().map(|constant| (&constant.name, "a constant"));
+        let named = table.names.iter().map(|named| (&named.name, "a named value"));
+        match locals
+            .chain(parameters)
+            .chain(inputs)
+            .chain(constants)
+            .chain(named)
+            .find(|(other, _)| names::identifier(&other.value) == name.value)
+        {
             None => Ok(()),
             Some((first, what)) => {
                 Err(Diagnostic::error(codes::DUPLICATE, format!("the name `{}` is taken", name.value))
@@ -101,9 +132,14 @@ impl Lowering<'_> {
 
     /// Whether a name stands for something by itself, as levels do not.
     pub(super) fn is_defined(&self, name: &str, env: &Env) -> bool {
-        env.locals.iter().any(|(local, _)| local.value == name)
-            || self.input_named(name).is_some()
-            || self.named_index.contains_key(name)
+        let known = match &env.parameters {
+            Some(parameters) => parameters.iter().any(|(parameter, _)| parameter == name),
+            None => self.input_named(name).is_some(),
+        };
+        known
+            || env.locals.iter().any(|(local, _)| local.value == name)
+            || self.scopes[env.scope].names.iter().any(|named| named.name.value == name)
+            || self.scopes[env.scope].constants.iter().any(|constant| constant.name.value == name)
     }
 
     pub(super) fn input_named(&self, name: &str) -> Option<InputId> {
@@ -124,25 +160,30 @@ impl Lowering<'_> {
 
     /// A condition or value with a name of its own.
     pub(super) fn named(&mut self, name: &str, env: &Env) -> Result<Option<Term>> {
-        let Some(index) = self.named_index.get(name).copied() else { return Ok(None) };
+        let index = match env.scope {
+            0 => self.named_index.get(name).copied(),
+            scope => self.scopes[scope].names.iter().position(|named| named.name.value == name),
+        };
+        let Some(index) = index.filter(|_| env.constants.is_none()) else { return Ok(None) };
         // Without overrides a name means the same everywhere, so it is lowered once.
         // Case references inside it depend on where it is used: then it is lowered anew.
-        let cacheable = env.overrides.is_empty() && !env.referenced;
+        let cacheable = env.overrides.is_empty() && !env.referenced && env.parameters.is_none();
         if cacheable && let Some(term) = &self.named_terms[index] {
             return Ok(Some(term.clone()));
         }
         if let Some(term) = env.names.borrow().get(&index) {
             return Ok(Some(term.clone()));
         }
-        let entry = &self.table.names[index];
-        if self.resolving.contains(&index) {
-            let chain = self.resolving.iter().chain([&index]).map(|i| self.table.names[*i].name.value.as_str());
+        let entry = &self.scopes[env.scope].names[index];
+        if self.resolving.contains(&(env.scope, index)) {
+            let chain = self.resolving.iter().copied().chain([(env.scope, index)]);
+            let chain = chain.map(|(scope, i)| self.scopes[scope].names[i].name.value.as_str());
             let chain = chain.collect::<Vec<_>>().join(" -> ");
             return Err(Diagnostic::error(codes::CIRCULAR_NAME, format!("`{name}` is defined by itself"))
                 .at(entry.value.span, chain)
                 .help("a name stands for something else: write out one of the definitions"));
         }
-        self.resolving.push(index);
+        self.resolving.push((env.scope, index));
         let inner = Env { locals: Vec::new(), ..env.clone() };
         let term = self.term(&entry.value, &inner, Expected::Anything);
         self.resolving.pop();
@@ -162,22 +203,49 @@ impl Lowering<'_> {
 
     /// Remembers a name for generated code.
     pub(super) fn label(&mut self, term: &Term, name: &str) {
-        if let Term::Number(expr) = term {
-            self.pool.set_label(*expr, name);
+        match term {
+            Term::Number(expr) => self.pool.set_label(*expr, name),
+            Term::Record(parts) => {
+                for (part, expr) in parts {
+                    self.pool.set_label(*expr, &format!("{name}_{part}"));
+                }
+            }
+            Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) => {}
         }
     }
 
     pub(super) fn unknown_name(&self, name: &str, span: Span, env: &Env) -> Diagnostic {
-        let inputs = self.table.inputs.iter().map(|i| i.name.value.as_str());
-        let names = self.table.names.iter().map(|n| n.name.value.as_str());
+        let inputs = || -> Vec<&str> {
+            match &env.parameters {
+                Some(parameters) => parameters.iter().map(|(name, _)| name.as_str()).collect(),
+                None => self.inputs.iter().map(|i| i.name.as_str()).collect(),
+            }
+        };
+        let scope = self.scopes[env.scope];
+        let names = scope.names.iter().map(|n| n.name.value.as_str());
+        let names = names.chain(scope.constants.iter().map(|c| c.name.value.as_str()));
         let locals = env.locals.iter().map(|(local, _)| local.value.as_str());
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{name}` is not defined")).at(span, "unknown name");
+        if let Some((constant, _)) = scope
+            .constants
+            .iter()
+            .map(|c| (c, &c.value))
+            .find(|(c, value)| c.name.value == name && matches!(value, table::ConstantValue::List(_)))
+        {
+            return error
+                .at(constant.name.span, "a list of constants")
+                .help(format!("lists stand in sums and polynomials: `sum(n in {name}, ...)`, `poly(x, {name})`"));
+        }
+        if let Some(input) = scope.inputs.iter().find(|input| input.name.value == name) {
+            return error.at(input.name.span, "is an input of the table, but not a parameter here");
+        }
         if self.sets.iter().any(|set| set.names.iter().any(|n| n == name)) {
             return error.help(format!("`{name}` is a level: compare an input with it, as in `input == {name}`"));
         }
-        match table::nearest(name, inputs.clone().chain(names).chain(locals)) {
+        match table::nearest(name, inputs().into_iter().chain(names).chain(locals)) {
             Some(close) => error.help(format!("did you mean `{close}`?")),
-            None => error.help(format!("the inputs are: {}", inputs.collect::<Vec<_>>().join(", "))),
+            None if env.parameters.is_some() => error.help(format!("the parameters are: {}", inputs().join(", "))),
+            None => error.help(format!("the inputs are: {}", inputs().join(", "))),
         }
     }
 

@@ -13,8 +13,10 @@ use crate::program::pool::{self, BinaryOp, Comparison, CondId, ExprId, UnaryOp};
 use crate::table::expr::{self as ast, Expr, ExprKind};
 
 /// Deepest and largest value of one row, references included.
-const MAX_DEPTH: u32 = 200;
+const MAX_DEPTH: u32 = 400;
 const MAX_SIZE: u32 = 50_000;
+/// Most different terms of a table or of one of its functions.
+const MAX_TERMS: usize = 100_000;
 
 /// How many expressions may be open at once while names and references are
 /// followed. An unoptimised build needs some 10 KiB of stack for each, of the
@@ -30,6 +32,8 @@ pub(super) enum Term {
     Level(SetId, Arc<LevelTerm>),
     /// A length and items, padded to the output's maximum.
     List(Vec<ExprId>),
+    /// Numbers with names.
+    Record(Vec<(String, ExprId)>),
 }
 
 /// What an expression is expected to be; guides bare level names and lists.
@@ -63,15 +67,24 @@ impl Lowering<'_> {
         let facts: Vec<pool::Facts> = match term {
             Term::Number(e) => vec![self.pool.expr_facts(*e)],
             Term::Vector(parts) | Term::List(parts) => parts.iter().map(|e| self.pool.expr_facts(*e)).collect(),
+            Term::Record(parts) => parts.iter().map(|(_, e)| self.pool.expr_facts(*e)).collect(),
             Term::Bool(c) => vec![self.pool.cond_facts(*c)],
             Term::Level(..) => return Ok(()),
         };
+        if self.pool.len() > MAX_TERMS {
+            let message = "with names, references and calls written out, the table is too large";
+            return Err(Diagnostic::error(codes::TOO_DEEP, message)
+                .at(span, "too much from here on")
+                .help(format!("at most {MAX_TERMS} different operations")));
+        }
+        // What functions share is counted once, so their trees may be large.
+        let max_size = if self.table.functions.is_empty() { MAX_SIZE } else { u32::MAX };
         for facts in facts {
-            if facts.depth > MAX_DEPTH || facts.size > MAX_SIZE {
+            if facts.depth > MAX_DEPTH || facts.size > max_size {
                 let message = "the value is too large once names and references are written out";
                 return Err(Diagnostic::error(codes::TOO_DEEP, message)
                     .at(span, format!("{} operations, {} deep", facts.size, facts.depth))
-                    .help(format!("at most {MAX_SIZE} operations, {MAX_DEPTH} deep")));
+                    .help(format!("at most {max_size} operations, {MAX_DEPTH} deep")));
             }
         }
         Ok(())
@@ -116,6 +129,13 @@ impl Lowering<'_> {
                 self.label(&term, &name.value);
                 self.term(body, &env.with_local(name, term), expected)
             }
+            ExprKind::With(function, given) => match self.callee(&function.value, env.scope) {
+                Some(callee) => self.call_with(callee, given, span, env),
+                None => Err(self.unknown_function(function, env)),
+            },
+            ExprKind::Between(body, variable, lo, hi) => self.between(body, variable, [lo, hi], span, env),
+            ExprKind::Sum(variable, over, term) => self.sum(variable, over, term, span, env),
+            ExprKind::Record(fields) => self.record(fields, span, env),
             ExprKind::List(items) => match expected {
                 Expected::List(set, max) => self.list(items, set, max, span, env),
                 _ => Err(type_error(span, "a list", "only a table with `output: List(...)` has lists as values")),
@@ -172,6 +192,9 @@ impl Lowering<'_> {
             Term::Bool(_) => "a condition".to_owned(),
             Term::Level(set, _) => format!("one of the levels {}", self.sets[set.0].names.join(", ")),
             Term::List(_) => "a list".to_owned(),
+            Term::Record(parts) => {
+                format!("a record of {}", parts.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "))
+            }
         }
     }
 
@@ -188,13 +211,16 @@ impl Lowering<'_> {
             }
             Op::Less | Op::LessEqual | Op::Greater | Op::GreaterEqual => {
                 let (x, y) = (self.numeric(a, env)?, self.numeric(b, env)?);
-                let condition = match op {
-                    Op::Less => self.pool.compare(Comparison::Less, x, y),
-                    Op::LessEqual => self.pool.compare(Comparison::LessEqual, x, y),
-                    Op::Greater => self.pool.compare(Comparison::Less, y, x),
-                    _ => self.pool.compare(Comparison::LessEqual, y, x),
+                let (comparison, x, y) = match op {
+                    Op::Less => (Comparison::Less, x, y),
+                    Op::LessEqual => (Comparison::LessEqual, x, y),
+                    Op::Greater => (Comparison::Less, y, x),
+                    _ => (Comparison::LessEqual, y, x),
                 };
-                Ok(Term::Bool(condition))
+                Ok(Term::Bool(match self.calling.is_empty() {
+                    true => self.pool.compare(comparison, x, y),
+                    false => self.pool.recompare(comparison, x, y),
+                }))
             }
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder => {
                 let op = match op {
@@ -206,7 +232,9 @@ impl Lowering<'_> {
                 };
                 let left = self.term(a, env, Expected::Anything)?;
                 let right = self.term(b, env, Expected::Anything)?;
-                if matches!(op, BinaryOp::Divide | BinaryOp::Remainder) && self.has_zero(&right) {
+                // What a function does with its arguments may be undefined there, as long as it says so.
+                let divides = matches!(op, BinaryOp::Divide | BinaryOp::Remainder) && self.calling.is_empty();
+                if divides && self.has_zero(&right) {
                     return Err(Diagnostic::error(codes::DIVISION_BY_ZERO, "division by zero")
                         .at(b.span, "this is always zero"));
                 }
@@ -232,6 +260,12 @@ impl Lowering<'_> {
             (Term::Bool(a), Term::Bool(b)) => Ok(Term::Bool(self.pool.cond_if(condition, *a, *b))),
             (Term::Vector(a), Term::Vector(b)) if a.len() == b.len() => Ok(Term::Vector(zip(self, a, b))),
             (Term::List(a), Term::List(b)) => Ok(Term::List(zip(self, a, b))),
+            (Term::Record(a), Term::Record(b)) if a.iter().map(|p| &p.0).eq(b.iter().map(|p| &p.0)) => {
+                let parts = a.iter().zip(b);
+                Ok(Term::Record(
+                    parts.map(|((n, a), (_, b))| (n.clone(), self.pool.select(condition, *a, *b))).collect(),
+                ))
+            }
             (Term::Level(s, a), Term::Level(t, b)) if s == t => {
                 Ok(Term::Level(*s, Arc::new(LevelTerm::If(condition, a.clone(), b.clone()))))
             }

@@ -1,0 +1,323 @@
+//! U0551 to U0554: where a formula fails and the quantity it stands for does not.
+//!
+//! A finding is a point at which the reference interpreter was seen to fail,
+//! judged by the value in hundreds of bits:
+//!
+//! - U0551: a divisor is zero and the whole has a limit, a *removable* singularity;
+//! - U0552: a divisor is zero and there is no limit;
+//! - U0553: equal terms on both sides of a difference are divided by something
+//!   small; they cancel on paper only;
+//! - U0554: an intermediate result overflows and the exact value does not.
+//!
+//! Divisors are solved for their zeros where they are products of affine forms
+//! and searched elsewhere; overflow is looked for at corners of the domain and
+//! at points inside. So every finding is real, but there may be others.
+
+mod cancel;
+mod points;
+#[cfg(test)]
+mod tests;
+mod trace;
+mod zeros;
+
+use std::collections::BTreeMap;
+
+use crate::diag::{Diagnostic, Span, codes};
+use crate::eval::{Precise, Unknown};
+use crate::program::normal::Normaliser;
+use crate::program::print::Printer;
+use crate::program::{BinaryOp, CondId, ExprId, InputId, Node, Program, UnaryOp, Value};
+use crate::show::{Precision, sentence};
+use trace::Trace;
+use zeros::{Zero, zeros};
+
+/// Longest term that is quoted in full.
+const QUOTED: usize = 60;
+
+/// A result this far from the exact one, relative to it, has lost its digits.
+const LOST: f64 = 1e-3;
+
+/// A point at which a formula fails.
+#[derive(Debug, Clone)]
+pub struct Singularity {
+    /// In words, where: `k = 0.5`, or which divisor is zero.
+    pub place: String,
+    /// The divisor that is zero.
+    pub divisor: ExprId,
+    /// One value per input.
+    pub point: Vec<Value>,
+    /// What `f32` gives there.
+    pub result: Vec<f64>,
+    /// The limit, if there is one.
+    pub limit: Option<Vec<f64>>,
+    /// The input and value that the place fixes, if it is of this simple kind.
+    pub fixed: Option<(InputId, f64)>,
+}
+
+/// Every singularity that was found, each place once.
+pub fn singularities(program: &Program) -> Vec<Singularity> {
+    let divisors = divisors(program);
+    let Some(mut judge) = (!divisors.is_empty()).then(|| Precise::new(program)).flatten() else { return Vec::new() };
+    let bases = points::inside(program, points::BASES);
+    let mut normaliser = Normaliser::default();
+    let mut found: BTreeMap<String, Singularity> = BTreeMap::new();
+    for divisor in divisors {
+        for zero in zeros(program, &mut normaliser, divisor) {
+            let place = place(program, &zero);
+            if found.contains_key(&place) {
+                continue;
+            }
+            let candidates = bases.iter().flat_map(|base| zero.near(program, base));
+            let Some(point) = candidates.into_iter().find(|point| fails_at(program, divisor, point)) else { continue };
+            let result = Trace::<f32>::run(program, &point).result.iter().map(|v| f64::from(*v)).collect();
+            let limit = match judge.limit(&given(&point)) {
+                Ok(limit) => Some(limit),
+                Err(Unknown::NoLimit) => None,
+                Err(Unknown::Absent(_)) => continue,
+            };
+            let fixed = if let Zero::Fixed(input, value) = zero { Some((input, value)) } else { None };
+            found.insert(place.clone(), Singularity { place, divisor, point, result, limit, fixed });
+        }
+    }
+    found.into_values().collect()
+}
+
+/// Whether the program divides by this expression there, and it is zero.
+fn fails_at(program: &Program, divisor: ExprId, point: &[Value]) -> bool {
+    let trace = Trace::<f32>::run(program, point);
+    trace.order.iter().any(|expr| match program.pool.node(*expr) {
+        Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) => b == divisor && trace.value(b) == Some(0.0),
+        _ => false,
+    })
+}
+
+fn given(point: &[Value]) -> Vec<Option<Value>> {
+    point.iter().copied().map(Some).collect()
+}
+
+/// The divisors that any result or condition contains and that are not a nonzero constant.
+fn divisors(program: &Program) -> Vec<ExprId> {
+    let mut all: Vec<ExprId> = Vec::new();
+    for expr in expressions(program) {
+        if let Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) = program.pool.node(expr) {
+            if program.pool.constant(b).is_none_or(|b| b == 0.0) && !all.contains(&b) {
+                all.push(b);
+            }
+        }
+    }
+    all
+}
+
+/// Everything that a result or a condition is made of, operands first.
+fn expressions(program: &Program) -> Vec<ExprId> {
+    let mut walk = Walk::default();
+    for row in &program.rows {
+        walk.cond(program, row.guard);
+        for line in &row.lines {
+            walk.cond(program, line.condition);
+            line.values.iter().for_each(|value| walk.expr(program, *value));
+        }
+    }
+    program.default.iter().for_each(|value| walk.expr(program, *value));
+    walk.order
+}
+
+#[derive(Default)]
+struct Walk {
+    order: Vec<ExprId>,
+    seen: std::collections::HashSet<ExprId>,
+    conditions: std::collections::HashSet<CondId>,
+}
+
+impl Walk {
+    fn cond(&mut self, program: &Program, condition: CondId) {
+        use crate::program::Cond;
+        if !self.conditions.insert(condition) {
+            return;
+        }
+        match program.pool.cond(condition) {
+            Cond::Const(_) | Cond::Level(..) => {}
+            Cond::Compare(_, a, b) => [a, b].into_iter().for_each(|e| self.expr(program, *e)),
+            Cond::Not(a) => self.cond(program, *a),
+            Cond::And(parts) | Cond::Or(parts) => parts.iter().for_each(|c| self.cond(program, *c)),
+            Cond::If(a, b, c) => [a, b, c].into_iter().for_each(|c| self.cond(program, *c)),
+        }
+    }
+
+    fn expr(&mut self, program: &Program, expr: ExprId) {
+        if !self.seen.insert(expr) {
+            return;
+        }
+        match program.pool.node(expr) {
+            Node::Const(_) | Node::Input(_) | Node::Result => {}
+            Node::Unary(_, a) => self.expr(program, a),
+            Node::Binary(_, a, b) => [a, b].into_iter().for_each(|e| self.expr(program, e)),
+            Node::Ternary(_, a, b, c) => [a, b, c].into_iter().for_each(|e| self.expr(program, e)),
+            Node::Select(condition, a, b) => {
+                self.cond(program, condition);
+                [a, b].into_iter().for_each(|e| self.expr(program, e));
+            }
+        }
+        self.order.push(expr);
+    }
+}
+
+fn place(program: &Program, zero: &Zero) -> String {
+    match zero {
+        Zero::Everywhere => "every point".to_owned(),
+        Zero::Fixed(input, value) => {
+            format!("`{} = {}`", program.inputs[input.index()].name, Precision::F32.show(*value))
+        }
+        Zero::Plane { factor, .. } | Zero::Somewhere(factor) => format!("`{} = 0`", quote(program, *factor)),
+    }
+}
+
+fn quote(program: &Program, expr: ExprId) -> String {
+    let text = Printer { pool: &program.pool, inputs: &program.inputs }.expr(expr);
+    match text.char_indices().nth(QUOTED) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
+    }
+}
+
+/// The point in words: `k = 0, b = 1`.
+fn at(program: &Program, point: &[Value]) -> String {
+    let mentioned = program.inputs.iter().zip(point).map(|(input, value)| match value {
+        Value::Number(number) => format!("{} = {}", input.name, Precision::F32.show(*number)),
+        Value::Level(_) => format!("{} = {}", input.name, input.show(*value)),
+    });
+    mentioned.collect::<Vec<_>>().join(", ")
+}
+
+/// The place in the table that a point leads to.
+fn span(program: &Program, point: &[Value]) -> Option<Span> {
+    let point = given(point);
+    let mut interpreter = crate::eval::Interpreter::<f32>::new(program);
+    let outcome = interpreter.evaluate(&point).ok()?;
+    let row = &program.rows[outcome.row?];
+    Some(outcome.line.map_or(row.span, |line| row.lines[line].span))
+}
+
+/// Everything that is wrong with the numbers of a program.
+pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
+    if program.output.is_integer() {
+        return Vec::new();
+    }
+    let singularities = singularities(program);
+    let mut all: Vec<Diagnostic> = singularities.iter().map(|s| describe(program, s)).collect();
+    all.extend(cancel::findings(program, &singularities));
+    all.extend(overflows(program));
+    all
+}
+
+fn describe(program: &Program, singularity: &Singularity) -> Diagnostic {
+    let Singularity { place, divisor, point, result, limit, .. } = singularity;
+    let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);
+    let name = &program.name;
+    let divisor = quote(program, *divisor);
+    let mut diagnostic = match limit {
+        Some(_) => {
+            let message = format!("`{name}` divides by zero at {place}, where its value is finite");
+            Diagnostic::warning(codes::REMOVABLE, message)
+        }
+        None => {
+            Diagnostic::warning(codes::POLE, format!("`{name}` divides by zero at {place}, and has no limit there"))
+        }
+    };
+    if let Some(span) = span(program, point) {
+        diagnostic = diagnostic.at(span, format!("the divisor `{divisor}` is zero here"));
+    }
+    let fate = match limit {
+        Some(limit) => format!("f32 gives {}, the limit is {}", shown(result), shown(limit)),
+        None => format!("f32 gives {}, and beside it the values differ or are not finite", shown(result)),
+    };
+    diagnostic = diagnostic.help(format!("at {}: {fate}", at(program, point)));
+    if let Some(loss) = limit.as_ref().and_then(|_| loss(program, singularity)) {
+        diagnostic = diagnostic.help(format!(
+            "digits are lost nearby as well: at {} f32 gives {}, exact is {}",
+            loss.place,
+            shown(&loss.got),
+            shown(&loss.exact)
+        ));
+    }
+    match limit {
+        Some(_) => diagnostic.help("`umbrage stabilise` looks for a form without this division"),
+        None => diagnostic.help("exclude the place from the domain, or give it a case of its own"),
+    }
+}
+
+/// A point near a singularity where the digits of the result are gone.
+pub(super) struct Loss {
+    place: String,
+    got: Vec<f64>,
+    exact: Vec<f64>,
+}
+
+/// Looks for lost digits beside a singularity, far away first: the farther, the worse.
+pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss> {
+    let (input, value) = singularity.fixed?;
+    let mut judge = Precise::new(program)?;
+    let mut point = singularity.point.clone();
+    for distance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7] {
+        for beside in [value + distance, value - distance] {
+            let beside = f64::from(beside as f32);
+            let outside = match program.inputs[input.index()].domain {
+                crate::program::Domain::Continuous { lo, hi, .. } => !(lo..=hi).contains(&beside),
+                crate::program::Domain::Discrete(_) => true,
+            };
+            if outside || beside == value {
+                continue;
+            }
+            point[input.index()] = Value::Number(beside);
+            let got: Vec<f64> = Trace::<f32>::run(program, &point).result.iter().map(|v| f64::from(*v)).collect();
+            let Ok(exact) = judge.value(&given(&point)) else { continue };
+            let lost = got.iter().zip(&exact).any(|(got, exact)| {
+                exact.is_finite() && exact.abs() > 1e-6 && !((got - exact).abs() <= LOST * exact.abs())
+            });
+            if lost {
+                let name = &program.inputs[input.index()].name;
+                return Some(Loss { place: format!("{name} = {}", Precision::F32.show(beside)), got, exact });
+            }
+        }
+    }
+    None
+}
+
+/// U0554: one finding for each kind of operation that overflows, at the first point that shows it.
+fn overflows(program: &Program) -> Vec<Diagnostic> {
+    let risky = |expr: &ExprId| match program.pool.node(*expr) {
+        Node::Unary(op, _) => matches!(op, UnaryOp::Exp | UnaryOp::Exp2 | UnaryOp::Sinh | UnaryOp::Cosh),
+        Node::Binary(op, ..) => op == BinaryOp::Pow,
+        _ => false,
+    };
+    if !expressions(program).iter().any(risky) {
+        return Vec::new();
+    }
+    let Some(mut judge) = Precise::new(program) else { return Vec::new() };
+    let mut found: BTreeMap<ExprId, Diagnostic> = BTreeMap::new();
+    for point in points::corners(program).into_iter().chain(points::inside(program, points::BASES)) {
+        let trace = Trace::<f32>::run(program, &point);
+        if trace.result.iter().all(|v| v.is_finite()) {
+            continue;
+        }
+        let first = trace.order.iter().find(|expr| trace.value(**expr).is_some_and(|v| !v.is_finite()));
+        let Some(first) = first.filter(|expr| risky(expr) && !found.contains_key(expr)) else { continue };
+        let Ok(exact) = judge.limit(&given(&point)) else { continue };
+        if exact.iter().any(|v| (*v as f32).is_infinite()) {
+            continue;
+        }
+        let got: Vec<f64> = trace.result.iter().map(|v| f64::from(*v)).collect();
+        let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);
+        let message = format!("`{}` overflows on the way to a value that is finite", program.name);
+        let mut diagnostic = Diagnostic::warning(codes::OVERFLOW, message);
+        if let Some(span) = span(program, &point) {
+            diagnostic = diagnostic.at(span, format!("`{}` is infinite in f32", quote(program, *first)));
+        }
+        let fate = format!("at {}: f32 gives {}, exact is {}", at(program, &point), shown(&got), shown(&exact));
+        found.insert(
+            *first,
+            diagnostic.help(fate).help("combine the factors, so that large and small ones meet in one exponent"),
+        );
+    }
+    found.into_values().collect()
+}

@@ -1,0 +1,113 @@
+//! The value of a case around a point, as a picture.
+
+use image::{Rgba, RgbaImage};
+
+use crate::diag::Failure;
+use crate::eval::Interpreter;
+use crate::picture;
+use crate::program::draw::Draw;
+use crate::program::{Domain, InputId, Output, Program, Value};
+
+/// Colours of levels, for results that are no numbers.
+const LEVELS: [[u8; 3]; 8] = [
+    [240, 240, 240],
+    [0, 114, 178],
+    [213, 94, 0],
+    [0, 158, 115],
+    [204, 121, 167],
+    [230, 190, 60],
+    [90, 170, 225],
+    [90, 90, 90],
+];
+
+/// Which numbers are black and white.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scale {
+    pub(super) black: f64,
+    pub(super) white: f64,
+}
+
+impl Scale {
+    /// From 0 to 1, unless the examples of a table go beyond that.
+    pub(super) fn of(program: &Program) -> Self {
+        let expected = program.examples.iter().flat_map(|example| example.expected.iter().copied());
+        let (black, white) = expected.fold((0.0_f64, 1.0_f64), |(lo, hi), value| (lo.min(value), hi.max(value)));
+        Scale { black, white }
+    }
+}
+
+/// The axes of pictures: the inputs across and down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Axes {
+    pub(super) across: Option<InputId>,
+    pub(super) down: Option<InputId>,
+}
+
+impl Axes {
+    /// As hinted, or else the first two numbers that the row's value depends on.
+    pub(super) fn of(program: &Program, row: usize) -> Self {
+        let hinted = |wanted: &Draw| program.draw.iter().find(|(_, draw)| draw == wanted).map(|(input, _)| *input);
+        let (across, down) = (hinted(&Draw::Across), hinted(&Draw::Down));
+        if across.is_some() || down.is_some() {
+            return Axes { across, down };
+        }
+        let lines = program.rows[row].lines.iter();
+        let inputs = lines.fold(program.pool.cond_facts(program.rows[row].guard).inputs, |all, line| {
+            let values = line.values.iter().map(|value| program.pool.expr_facts(*value).inputs);
+            values.fold(all.or(program.pool.cond_facts(line.condition).inputs), |all, inputs| all.or(inputs))
+        });
+        let is_number = |id: &InputId| matches!(program.inputs[id.index()].domain, Domain::Continuous { .. });
+        let mut numbers = inputs.minus(program.fetched).iter().filter(is_number);
+        Axes { across: numbers.next(), down: numbers.next() }
+    }
+}
+
+/// The value of a row over the axes, other inputs as at `point`. Where the row
+/// is not taken the picture is transparent.
+pub(super) fn picture(
+    program: &Program,
+    row: usize,
+    point: &[Option<Value>],
+    axes: Axes,
+    scale: &Scale,
+    size: u32,
+) -> RgbaImage {
+    let mut interpreter = Interpreter::<f32>::new(program);
+    let mut point = point.to_vec();
+    RgbaImage::from_fn(size, size, |x, y| {
+        for (axis, place) in [(axes.across, x), (axes.down, y)] {
+            let Some(input) = axis else { continue };
+            if let Domain::Continuous { lo, hi, .. } = program.inputs[input.index()].domain {
+                let share = (f64::from(place) + 0.5) / f64::from(size);
+                point[input.index()] = Some(Value::Number(lo * (1.0 - share) + hi * share));
+            }
+        }
+        match interpreter.evaluate(&point) {
+            Ok(outcome) if outcome.row == Some(row) => {
+                let values: Vec<f64> = outcome.values.iter().map(|value| f64::from(*value)).collect();
+                let [r, g, b] = colour(&program.output, &values, scale);
+                Rgba([r, g, b, 255])
+            }
+            _ => Rgba([0; 4]),
+        }
+    })
+}
+
+/// The colour of a result: grey for a number, colours for more or for levels.
+pub(super) fn colour(output: &Output, values: &[f64], scale: &Scale) -> [u8; 3] {
+    let grey = |value: f64| {
+        let share = (value - scale.black) / (scale.white - scale.black);
+        (share.clamp(0.0, 1.0) * 255.0).round() as u8
+    };
+    match (output, values) {
+        (Output::Vector(_), [r, g, rest @ ..]) => [grey(*r), grey(*g), rest.first().map_or(0, |b| grey(*b))],
+        (Output::Enumeration(_) | Output::List { .. }, [first, ..]) => LEVELS[*first as usize % LEVELS.len()],
+        (_, [value, ..]) => [grey(*value); 3],
+        (_, []) => [0; 3],
+    }
+}
+
+/// A picture as the address of an image element.
+pub(super) fn address(picture: &RgbaImage) -> Result<String, Failure> {
+    picture::data_uri(picture)
+}

@@ -1,0 +1,64 @@
+//! `umbrage atlas`: every case of a table as a picture.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::output::Sink;
+use super::{Outcome, Result};
+use crate::atlas::{self, Atlas};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::picture;
+use crate::program::Program;
+
+/// Arguments of `umbrage atlas`.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The table
+    table: PathBuf,
+    /// Where it goes; the extension (svg, png, html) says in which form
+    #[arg(long, short, value_name = "FILE")]
+    output: PathBuf,
+    /// Pixels per unit of the drawing, for PNG
+    #[arg(long, default_value_t = 1.5, value_name = "FACTOR")]
+    scale: f32,
+}
+
+/// Draws the atlas.
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
+    let form = Form::of(&arguments.output)?;
+    let program = Program::read(&arguments.table)?;
+    let mut sink = Sink::create(&arguments.output)?;
+    let atlas = Atlas::new(&program, None)?;
+    let bytes = match form {
+        Form::Svg => atlas::svg(&program, &atlas).into_bytes(),
+        Form::Html => atlas::page(&program, &atlas).into_bytes(),
+        Form::Png => picture::png(&picture::raster(&atlas::svg(&program, &atlas), arguments.scale)?)?,
+    };
+    sink.write_all(&bytes).map_err(|error| sink.failure(&error))?;
+    sink.finish()?;
+    Ok(Outcome::Clean)
+}
+
+/// The form of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Svg,
+    Png,
+    Html,
+}
+
+impl Form {
+    fn of(path: &Path) -> std::result::Result<Self, Failure> {
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("svg") => Ok(Form::Svg),
+            Some("png") => Ok(Form::Png),
+            Some("html") => Ok(Form::Html),
+            _ => {
+                let error =
+                    Diagnostic::error(codes::UNWRITABLE, "the name does not say which form the atlas is to have")
+                        .help("let it end in .svg, .png or .html");
+                Err(Failure::bare(path.to_string_lossy().replace('\\', "/"), error))
+            }
+        }
+    }
+}

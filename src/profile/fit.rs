@@ -1,0 +1,301 @@
+//! Whether a profile is one of a table: as it is, mapped, or not at all.
+//!
+//! A table changes more often than a scene is counted. While the discrete
+//! inputs stay the same, the states mean what they meant, and every count
+//! stands. If they changed, all that is left is how often each case occurred:
+//! its count is spread over the states in which the table takes it now, and
+//! what belonged to cases that are gone is lost, which is said.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use super::{Profile, Scene, state_inputs};
+use crate::analyse::admissible;
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::eval::Interpreter;
+use crate::plan::Weights;
+use crate::program::symbolic::{Machine, View};
+use crate::program::{Assumption, Domain, Program, Value};
+
+/// A profile that fits a table.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// The profile, of this table.
+    pub profile: Profile,
+    /// What was lost on the way, if the table has changed.
+    pub warning: Option<Diagnostic>,
+}
+
+/// A state that occurs although an assumption excludes it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Excluded {
+    /// The scene.
+    pub scene: String,
+    /// The state, in words.
+    pub state: String,
+    /// How often it occurs.
+    pub count: u64,
+    /// The assumption that it contradicts; `None` if they only do together.
+    pub assumption: Option<String>,
+}
+
+/// Fits a profile to a table.
+///
+/// # Errors
+/// When it is the profile of another table, or nothing of it is left, or it counts nothing.
+pub fn fit(program: &Program, profile: Profile, name: &str) -> Result<Fitted, Failure> {
+    let refuse =
+        |code, message: String, help: &str| Err(Failure::bare(name, Diagnostic::error(code, message).help(help)));
+    if profile.table != program.name {
+        let message = format!("is a profile of the table `{}`, not of `{}`", profile.table, program.name);
+        return refuse(codes::OTHER_PROFILE, message, "give the profile of this table");
+    }
+    let counts_nothing = |profile: &Profile| profile.state_weights().iter().sum::<f64>() <= 0.0;
+    if counts_nothing(&profile) {
+        let message = "counts nothing: every count, or every weight, is zero".to_owned();
+        return refuse(codes::EMPTY_PROFILE, message, "count scenes in which the table is evaluated");
+    }
+    let same_inputs = profile.inputs == state_inputs(program);
+    if profile.fingerprint == program.fingerprint() {
+        return match same_inputs {
+            true => Ok(Fitted { profile, warning: None }),
+            false => {
+                let message = format!("is damaged: these are not the inputs of `{}`", program.name);
+                refuse(codes::BAD_PROFILE, message, "make it again")
+            }
+        };
+    }
+    let changed = format!("{name}: was counted with another text of the table `{}`", program.name);
+    if same_inputs {
+        let warning = Diagnostic::warning(codes::OLD_PROFILE, changed)
+            .help("the discrete inputs are the same, so every count stands; nothing is lost");
+        let profile = Profile { fingerprint: program.fingerprint(), ..profile };
+        return Ok(Fitted { profile, warning: Some(warning) });
+    }
+    let (mapped, lost) = by_case(program, &profile);
+    if counts_nothing(&mapped) {
+        let message =
+            format!("was counted with another text of the table `{}`, and nothing of it is left", program.name);
+        return refuse(codes::OTHER_PROFILE, message, "count again with this table");
+    }
+    let total = profile.total();
+    let gone: u64 = lost.values().sum();
+    let mut warning = Diagnostic::warning(codes::OLD_PROFILE, changed).help(format!(
+        "its inputs have changed: {} of {total} counts were mapped by the number of their case, {gone} ({:.1} %) were lost",
+        total - gone,
+        100.0 * gone as f64 / total as f64
+    ));
+    if !lost.is_empty() {
+        let cases: Vec<String> = lost.iter().map(|(case, count)| format!("{} ({count})", case_name(*case))).collect();
+        warning = warning.help(format!("never taken any more: {}", cases.join(", ")));
+    }
+    Ok(Fitted { profile: mapped, warning: Some(warning.help("count again to be exact")) })
+}
+
+/// A case in words.
+pub(super) fn case_name(case: Option<u32>) -> String {
+    case.map_or("the default".to_owned(), |case| format!("case {case}"))
+}
+
+/// The counts of each case, spread over the states in which it is taken now; and what is lost.
+fn by_case(program: &Program, profile: &Profile) -> (Profile, BTreeMap<Option<u32>, u64>) {
+    let mut states_of: BTreeMap<Option<u32>, Vec<usize>> = BTreeMap::new();
+    for (state, case) in typical_cases(program) {
+        states_of.entry(case).or_default().push(state);
+    }
+    let mut lost = BTreeMap::new();
+    let mut mapped = Profile { scenes: Vec::new(), ..Profile::new(program) };
+    for scene in &profile.scenes {
+        let mut states: BTreeMap<usize, u64> = BTreeMap::new();
+        let mut cases = BTreeMap::new();
+        for (case, count) in scene.cases.iter().filter(|(_, count)| **count > 0) {
+            let Some(targets) = states_of.get(case) else {
+                *lost.entry(*case).or_default() += *count;
+                continue;
+            };
+            let (each, more) = (*count / targets.len() as u64, *count % targets.len() as u64);
+            for (index, state) in targets.iter().enumerate() {
+                *states.entry(*state).or_default() += each + u64::from((index as u64) < more);
+            }
+            cases.insert(*case, *count);
+        }
+        mapped.scenes.push(Scene { states, cases, tiles: None, ..scene.clone() });
+    }
+    (mapped, lost)
+}
+
+/// The case taken in each state that can occur, in the middle of the continuous inputs.
+fn typical_cases(program: &Program) -> Vec<(usize, Option<u32>)> {
+    let assumed: Vec<&Assumption> = program.assumptions.iter().collect();
+    let middle = |domain: &Domain| match domain {
+        Domain::Discrete(_) => Value::Level(0),
+        Domain::Continuous { lo, hi, .. } => Value::Number(f64::midpoint(*lo, *hi)),
+    };
+    let mut point: Vec<Option<Value>> = program.inputs.iter().map(|input| Some(middle(&input.domain))).collect();
+    let mut levels = vec![0; program.inputs.len()];
+    let mut interpreter = Interpreter::<f64>::new(program);
+    let mut cases = Vec::new();
+    for state in admissible(program, &assumed) {
+        program.states.write(state, &mut levels);
+        for (input, _) in program.states.digits() {
+            point[input.index()] = Some(Value::Level(levels[input.index()]));
+        }
+        if let Ok(outcome) = interpreter.evaluate(&point) {
+            cases.push((state, outcome.row.map(|row| program.rows[row].id)));
+        }
+    }
+    cases
+}
+
+impl Fitted {
+    /// The weights of the states, for the planner.
+    ///
+    /// # Errors
+    /// Never for a profile that was fitted to this program.
+    pub fn weights(&self, program: &Program, name: &str) -> Result<Weights, Failure> {
+        let origin = format!("{name}, {}", self.profile.describe());
+        Weights::new(program, self.profile.state_weights(), origin)
+            .map_err(|reason| Failure::bare(name, Diagnostic::error(codes::BAD_PROFILE, reason).help("make it again")))
+    }
+
+    /// The states that occur although assumptions exclude them, in any scene: that
+    /// is how assumptions are checked.
+    pub fn excluded(&self, program: &Program) -> Vec<Excluded> {
+        let mut machine = Machine::new(program);
+        let all: Vec<&Assumption> = program.assumptions.iter().collect();
+        let mut reasons: BTreeMap<usize, Option<Option<String>>> = BTreeMap::new();
+        let mut found = Vec::new();
+        for scene in &self.profile.scenes {
+            for (state, count) in scene.states.iter().filter(|(_, count)| **count > 0) {
+                let reason = reasons.entry(*state).or_insert_with(|| {
+                    excludes(&mut machine, *state, &all).then(|| {
+                        let alone = all.iter().find(|one| excludes(&mut machine, *state, &[one]));
+                        alone.map(|assumption| assumption.name.clone())
+                    })
+                });
+                if let Some(assumption) = reason {
+                    found.push(Excluded {
+                        scene: scene.name.clone(),
+                        state: self.profile.words(*state),
+                        count: *count,
+                        assumption: assumption.clone(),
+                    });
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Whether assumptions surely do not hold in a state, whatever the other inputs.
+fn excludes(machine: &mut Machine<'_>, state: usize, assumed: &[&Assumption]) -> bool {
+    let can_hold = machine.any_path(state, |machine| {
+        match assumed.iter().all(|assumption| machine.holds(assumption.condition, View::PLAIN)) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    });
+    !can_hold && !machine.gave_up()
+}
+
+impl Excluded {
+    /// As an error about the table.
+    pub fn diagnostic(&self, program: &Program) -> Diagnostic {
+        let Excluded { scene, state, count, assumption } = self;
+        let inputs: Vec<String> = program
+            .states
+            .digits()
+            .iter()
+            .zip(state.split(' '))
+            .map(|((input, _), level)| format!("{}={level}", program.inputs[input.index()].name))
+            .collect();
+        let who = assumption
+            .as_ref()
+            .map_or("the assumptions together exclude".to_owned(), |name| format!("the assumption `{name}` excludes"));
+        let message = format!("{who} a state that occurs {count} times in the scene `{scene}`");
+        let mut error = Diagnostic::error(codes::EXCLUDED_STATE, message);
+        if let Some(declared) = program.assumptions.iter().find(|a| Some(&a.name) == assumption.as_ref()) {
+            error = error.at(declared.span, "does not hold there");
+        }
+        error
+            .help(format!("the state: {}", inputs.join(",")))
+            .help("mend the assumption, or what computes the inputs; plans that use it would be wrong there")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{scene, smsr};
+    use super::*;
+    use crate::diag::Source;
+    use crate::table::Table;
+
+    fn parsed(text: String) -> Program {
+        let table = Table::parse(Source::new("tables/smsr.ron", text));
+        table.and_then(|table| Program::check(&table)).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    fn some() -> Profile {
+        let program = smsr();
+        let mut profile = Profile::new(&program);
+        // V = bottom with a horizontal run: case 9; and a state that assumptions exclude.
+        let bottom = profile.state("none bottom positive_negative positive_negative false false").expect("a state");
+        profile.scenes.push(scene("fence", &[(bottom, 90), (0, 10)], &[(Some(9), 90), (Some(1), 10)]));
+        profile
+    }
+
+    fn help(fitted: &Fitted) -> Vec<String> {
+        fitted.warning.as_ref().expect("a warning").notes.clone()
+    }
+
+    #[test]
+    fn the_same_table_and_another_one() {
+        let fitted = fit(&smsr(), some(), "p.ron").expect("fits");
+        assert_eq!((fitted.warning.is_none(), &fitted.profile), (true, &some()));
+        let mut other = some();
+        other.table = "rsmss".to_owned();
+        let failure = fit(&smsr(), other, "p.ron").expect_err("refused");
+        assert_eq!(failure.diagnostics[0].message, "is a profile of the table `rsmss`, not of `smsr`");
+        let mut empty = some();
+        empty.scenes[0].weight = 0.0;
+        let failure = fit(&smsr(), empty, "p.ron").expect_err("refused");
+        assert_eq!(failure.diagnostics[0].message, "counts nothing: every count, or every weight, is zero");
+    }
+
+    #[test]
+    fn counts_stand_while_the_inputs_are_the_same() {
+        let program = parsed(smsr().source.text.clone() + "// One comment more.\n");
+        let fitted = fit(&program, some(), "p.ron").expect("fits");
+        assert_eq!(fitted.profile.scenes, some().scenes);
+        assert_eq!(help(&fitted), ["the discrete inputs are the same, so every count stands; nothing is lost"]);
+    }
+
+    #[test]
+    fn counts_are_mapped_by_case_when_inputs_changed() {
+        // A level more in H and V, and case 1 is now case 101.
+        let text = smsr().source.text.replace("\"both\": 0.75}", "\"both\": 0.75, \"odd\": 1}");
+        assert_ne!(text, smsr().source.text);
+        let text = text.replace("id: 1,", "id: 101,");
+        let program = parsed(text);
+        let fitted = fit(&program, some(), "p.ron").expect("fits");
+        assert_eq!(fitted.profile.total(), 90);
+        assert_eq!(
+            help(&fitted),
+            [
+                "its inputs have changed: 90 of 100 counts were mapped by the number of their case, 10 (10.0 %) were lost",
+                "never taken any more: case 1 (10)",
+                "count again to be exact"
+            ]
+        );
+    }
+
+    #[test]
+    fn states_that_assumptions_exclude_are_found() {
+        let program = smsr();
+        let excluded = fit(&program, some(), "p.ron").expect("fits").excluded(&program);
+        assert_eq!(excluded.len(), 1);
+        assert_eq!((excluded[0].count, excluded[0].scene.as_str()), (10, "fence"));
+        let message = excluded[0].diagnostic(&program).message;
+        assert_eq!(message, "the assumption `I1_h` excludes a state that occurs 10 times in the scene `fence`");
+    }
+}

@@ -1,0 +1,342 @@
+//! A table of functions → programs, one for each function.
+//!
+//! What the program of a function is called: the table's name and its own. Its
+//! inputs are the parameters, its rows its cases; a function without cases has
+//! a single row, number 0, that is always taken.
+
+use std::collections::HashMap;
+
+use super::terms::{Expected, Term};
+use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once};
+use crate::diag::{Diagnostic, Failure, Spanned, codes};
+use crate::program::domain::StateSpace;
+use crate::program::pool;
+use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row};
+use crate::table::{self, FunctionBody, HitPolicy, Table, names};
+
+/// Checks a table of functions.
+pub(in crate::program) fn functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
+    check_imports(table)?;
+    let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
+    let mut errors = Vec::new();
+    // Declarations are judged once, with all inputs; without sound ones nothing else could be.
+    let mut all = Lowering::new(table);
+    let inputs: Vec<&table::Input> = table.inputs.iter().collect();
+    all.declare(&inputs, &mut errors);
+    all.declare_functions(&mut errors);
+    if !errors.is_empty() {
+        return Err(fail(errors));
+    }
+    let mut programs = Vec::new();
+    for function in &table.functions {
+        programs.extend(one(table, function, &mut errors));
+    }
+    // A mistake in a name or helper that nothing uses is a mistake too.
+    for named in &table.names {
+        let _ = keep(all.term_of_name(&named.name.value), &mut errors);
+        if errors.last().is_some_and(|e| e.code == codes::TOO_DEEP) {
+            break;
+        }
+    }
+    once(&mut errors);
+    if errors.is_empty() { Ok(programs) } else { Err(fail(errors)) }
+}
+
+/// Checks the tables that a table imports. What is wrong with one is said of it.
+pub(super) fn check_imports(table: &Table) -> std::result::Result<(), Failure> {
+    for import in &table.imports {
+        if let Some(imported) = &import.table {
+            Program::check_all(imported)?;
+            if imported.functions.is_empty() {
+                let error = Diagnostic::error(codes::IMPORT, format!("`{}` has no functions", import.path.value));
+                let error = error.at(import.path.span, "a table of cases").help("only functions can be called");
+                return Err(Failure::new(table.source.clone(), error));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What to say when a table has no function of that name.
+pub(in crate::program) fn no_function(table: &Table, name: Option<&str>) -> Failure {
+    let known: Vec<&str> = table.functions.iter().map(|function| function.name.value.as_str()).collect();
+    let listed = format!("the functions are: {}", known.join(", "));
+    let error = match (name, known.is_empty()) {
+        (None, _) => Diagnostic::error(codes::NO_FUNCTION, format!("`{}` is a table of functions", table.name.value))
+            .help("name one of them, as in `--function ...`")
+            .help(listed),
+        (Some(name), true) => {
+            Diagnostic::error(codes::NO_FUNCTION, format!("`{}` has no function `{name}`", table.name.value))
+                .help("it is a table of cases, which is used without naming a function")
+        }
+        (Some(name), false) => {
+            let error =
+                Diagnostic::error(codes::NO_FUNCTION, format!("`{}` has no function `{name}`", table.name.value));
+            match table::nearest(name, known.iter().copied()) {
+                Some(close) => error.help(format!("did you mean `{close}`?")),
+                None => error,
+            }
+            .help(listed)
+        }
+    };
+    Failure::new(table.source.clone(), error.at(table.name.span, "this table"))
+}
+
+/// Checks one function.
+fn one(table: &Table, function: &table::Function, errors: &mut Vec<Diagnostic>) -> Option<Program> {
+    let mut lowering = Lowering::new(table);
+    let mut inputs: Vec<&table::Input> = Vec::new();
+    for name in &function.parameters {
+        match table.inputs.iter().find(|input| input.name.value == name.value) {
+            Some(input) if inputs.iter().any(|other| other.name.value == name.value) => {
+                let message = format!("`{}` is a parameter twice", name.value);
+                errors.push(
+                    Diagnostic::error(codes::DUPLICATE, message)
+                        .at(name.span, "again")
+                        .at(input.name.span, "declared here"),
+                );
+                return None;
+            }
+            Some(input) if input.fetched.is_some() => {
+                let message = format!("the parameter `{}` is fetched", name.value);
+                errors.push(
+                    Diagnostic::error(codes::PARAMETER, message).at(name.span, "functions are given what they need"),
+                );
+                return None;
+            }
+            Some(input) => inputs.push(input),
+            None => {
+                let known = || table.inputs.iter().map(|input| input.name.value.as_str());
+                let error =
+                    Diagnostic::error(codes::PARAMETER, format!("the parameter `{}` is not declared", name.value))
+                        .at(name.span, "not under `inputs`");
+                errors.push(match table::nearest(&name.value, known()) {
+                    Some(close) => error.help(format!("did you mean `{close}`?")),
+                    None => error.help("declare it: inputs: {\"x\": Range(from: 0, to: 1)}"),
+                });
+                return None;
+            }
+        }
+    }
+    lowering.declare(&inputs, errors);
+    lowering.portable = function.accuracy.is_some();
+    let states = keep(StateSpace::new(&lowering.inputs).map_err(|product| lowering.too_many_states(product)), errors)?;
+    keep(lowering.function(function, states), errors)
+}
+
+impl<'t> Lowering<'t> {
+    fn function(mut self, function: &'t table::Function, states: StateSpace) -> Result<Program> {
+        // Open as a call is, so that a function that leads back to itself is found here.
+        let env = self.bind(function, &super::Env::default())?;
+        let always = self.pool.always(true);
+        let (mut rows, mut examples) = (Vec::new(), Vec::new());
+        let default = match &function.body {
+            FunctionBody::Value(value) => {
+                let term = self.term(value, &env, Expected::Anything)?;
+                self.infer_output(&term, value.span)?;
+                let values = self.result(term, value.span)?;
+                rows.push(Row {
+                    id: 0,
+                    span: value.span,
+                    guard: always,
+                    guard_span: function.name.span,
+                    lines: vec![Line {
+                        condition: always,
+                        condition_span: None,
+                        values: values.clone(),
+                        span: value.span,
+                    }],
+                    section: function.section.clone(),
+                    doc: function.doc.clone(),
+                    errata: function.errata.clone(),
+                    allow: Vec::new(),
+                });
+                for example in &function.examples {
+                    examples.push(self.example(0, example)?);
+                }
+                values
+            }
+            FunctionBody::Cases { cases, default } => {
+                let term = self.term(default, &env, Expected::Anything)?;
+                self.infer_output(&term, default.span)?;
+                let mut seen = HashMap::new();
+                for case in cases {
+                    if let Some(first) = seen.insert(case.id.value, case.id.span) {
+                        let message = format!("case {} is defined twice", case.id.value);
+                        let error = Diagnostic::error(codes::DUPLICATE_CASE, message);
+                        return Err(error.at(case.id.span, "defined again here").at(first, "first defined here"));
+                    }
+                    let (guard, lines) = self.function_case(case, &env)?;
+                    let lines = lines.into_iter().map(|line| {
+                        let values = self.result(line.value, line.span)?;
+                        Ok(Line {
+                            condition: line.condition,
+                            condition_span: line.condition_span,
+                            values,
+                            span: line.span,
+                        })
+                    });
+                    let lines = lines.collect::<Result<Vec<_>>>()?;
+                    rows.push(Row {
+                        id: case.id.value,
+                        span: case.span,
+                        guard,
+                        guard_span: case.span,
+                        lines,
+                        section: case.section.clone(),
+                        doc: case.doc.clone(),
+                        errata: case.errata.clone(),
+                        allow: case.allow.clone(),
+                    });
+                }
+                for (row, case) in cases.iter().enumerate() {
+                    for example in &case.examples {
+                        examples.push(self.example(row, example)?);
+                    }
+                }
+                self.result(term, default.span)?
+            }
+        };
+        let assumptions = function.domain.iter().map(|condition| {
+            names::check_inner(&condition.name.value, "a condition of the domain", condition.name.span)?;
+            Ok(Assumption {
+                name: condition.name.value.clone(),
+                condition: self.condition(&condition.condition, &env)?,
+                doc: condition.doc.clone(),
+                span: condition.condition.span,
+            })
+        });
+        let assumptions = assumptions.collect::<Result<Vec<_>>>()?;
+        let limits = function.limits.iter().map(|limit| self.limit(limit, &env)).collect::<Result<Vec<_>>>()?;
+        let accuracy = match &function.accuracy {
+            Some(claim) => Some(Accuracy {
+                times: claim.times.value,
+                scale: self.numeric(&claim.scale, &env)?,
+                span: claim.times.span,
+            }),
+            None => None,
+        };
+        let table = self.table;
+        let title = match function.doc.is_empty() {
+            true => table.title.clone(),
+            false => function.doc.clone(),
+        };
+        Ok(Program {
+            source: table.source.clone(),
+            name: format!("{}_{}", table.name.value, function.name.value),
+            title,
+            origin: table.origin.clone(),
+            hit_policy: HitPolicy::First,
+            hit_policy_span: function.name.span,
+            fetched: self.fetched(),
+            inputs: self.inputs,
+            states,
+            pool: self.pool,
+            rows,
+            default,
+            output: self.output,
+            assumptions,
+            draw: Vec::new(),
+            symmetries: Vec::new(),
+            examples,
+            function: Some(Function {
+                table: table.name.value.clone(),
+                name: function.name.value.clone(),
+                span: function.name.span,
+                limits,
+                accuracy,
+            }),
+            continuity: Vec::new(),
+            allow: table.allow.clone(),
+            exhibit: table.exhibit.clone(),
+        })
+    }
+
+    /// What a function returns is what its value is.
+    fn infer_output(&mut self, term: &Term, span: crate::diag::Span) -> Result<()> {
+        self.output = match term {
+            Term::Number(_) => Output::Number,
+            Term::Vector(parts) => Output::Vector(parts.len()),
+            Term::Record(parts) => Output::Record(parts.iter().map(|(name, _)| name.clone()).collect()),
+            Term::Bool(_) | Term::Level(..) | Term::List(_) => {
+                let message = format!("a function returns numbers, but this is {}", self.describe(term));
+                return Err(Diagnostic::error(codes::OUTPUTS, message)
+                    .at(span, "not a number, vector or record")
+                    .help("`f32(...)` gives the number of a level or condition"));
+            }
+        };
+        self.output_set = SetId::BOOL;
+        Ok(())
+    }
+
+    fn limit(&mut self, limit: &table::Limit, env: &super::Env) -> Result<Limit> {
+        let mut at = Vec::new();
+        for (name, value) in &limit.at {
+            let Some(input) = self.input_named(&name.value) else {
+                return Err(self.unknown_input(name, "not a parameter"));
+            };
+            let number =
+                self.numeric(value, &super::Env { parameters: Some(std::rc::Rc::default()), ..super::Env::default() })?;
+            match self.pool.constant(number) {
+                Some(number) => at.push((input, number)),
+                None => {
+                    let error = Diagnostic::error(codes::NOT_CONSTANT, "a limit is taken at constants");
+                    return Err(error.at(value.span, "depends on something"));
+                }
+            }
+        }
+        let term = self.term(&limit.value, env, Expected::Anything)?;
+        Ok(Limit { span: limit.span, at, values: self.components(term, limit.value.span)? })
+    }
+
+    /// Checks the names of functions, helpers and their parameters.
+    pub(super) fn declare_functions(&mut self, errors: &mut Vec<Diagnostic>) {
+        let table = self.table;
+        let callees = table.helpers.iter().map(Callee::Helper).chain(table.functions.iter().map(Callee::Function));
+        let mut seen: HashMap<String, &Spanned<String>> = HashMap::new();
+        for callee in callees {
+            let (name, what) = match callee {
+                Callee::Helper(helper) => (&helper.name, "a helper"),
+                Callee::Function(function) => (&function.name, "a function"),
+            };
+            let checked = names::check_inner(&name.value, what, name.span).and_then(|()| {
+                let built_in = pool::UNARY_FUNCTIONS.iter().any(|(n, _)| *n == name.value)
+                    || pool::BINARY_FUNCTIONS.iter().any(|(n, _)| *n == name.value)
+                    || pool::TERNARY_FUNCTIONS.iter().any(|(n, _)| *n == name.value)
+                    || calls::BUILT_IN.contains(&name.value.as_str());
+                if built_in {
+                    let message = format!("`{}` is a function of the language", name.value);
+                    return Err(Diagnostic::error(codes::RESERVED_NAME, message).at(name.span, "choose another name"));
+                }
+                // Generated names are also written in capitals.
+                match seen.insert(name.value.to_ascii_lowercase(), name) {
+                    None => Ok(()),
+                    Some(first) => {
+                        let message = format!("two functions are called `{}`", name.value);
+                        Err(Diagnostic::error(codes::DUPLICATE, message)
+                            .at(name.span, "differs in capitals at most")
+                            .at(first.span, "first here"))
+                    }
+                }
+            });
+            keep(checked, errors);
+            if let Callee::Helper(helper) = callee {
+                for (index, parameter) in helper.parameters.iter().enumerate() {
+                    let twice = helper.parameters[..index].iter().find(|other| other.value == parameter.value);
+                    let taken = table.constants.iter().map(|c| &c.name).find(|other| other.value == parameter.value);
+                    let checked = names::check(&parameter.value, "a parameter", parameter.span).and_then(|()| {
+                        match twice.or(taken) {
+                            None => Ok(()),
+                            Some(first) => {
+                                let message = format!("the name `{}` is taken", parameter.value);
+                                let error = Diagnostic::error(codes::DUPLICATE, message);
+                                Err(error.at(parameter.span, "again").at(first.span, "first here"))
+                            }
+                        }
+                    });
+                    keep(checked, errors);
+                }
+            }
+        }
+    }
+}

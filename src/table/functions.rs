@@ -1,0 +1,294 @@
+//! Functions of a table, as written: what they are called with, what they
+//! return, and what is claimed of them.
+
+use std::sync::Arc;
+
+use serde::Deserialize;
+
+use super::expr::{Expr, ExprKind};
+use super::raw::{Raw, RawMap, Reader, Shape};
+use super::{Assumption, Case, Erratum, Example, Line, Named, Table};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+
+type Result<T> = std::result::Result<T, Diagnostic>;
+
+/// A function that generated code offers.
+#[derive(Debug, Clone)]
+pub struct Function {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// Section of the source that defines it.
+    pub section: String,
+    /// One line on what it is.
+    pub doc: String,
+    /// The inputs of the table that are its parameters, in the order of the generated ones.
+    pub parameters: Vec<Spanned<String>>,
+    /// Values that it names, each evaluated once.
+    pub bindings: Vec<Named>,
+    /// What it returns.
+    pub body: FunctionBody,
+    /// Conditions on its parameters; outside of them it is not meant to be used.
+    pub domain: Vec<Assumption>,
+    /// What it is claimed to be at particular places.
+    pub limits: Vec<Limit>,
+    /// How accurate it is claimed to be.
+    pub accuracy: Option<Accuracy>,
+    /// Misprints of the source that were mended here, or that are kept.
+    pub errata: Vec<Erratum>,
+    /// Parameters with the expected result; every executor runs them.
+    pub examples: Vec<Example>,
+}
+
+/// What a function returns.
+#[derive(Debug, Clone)]
+pub enum FunctionBody {
+    /// One expression.
+    Value(Expr),
+    /// Cases, like those of a table.
+    Cases {
+        /// The rows, in the order written.
+        cases: Vec<Case>,
+        /// The result where no case matches.
+        default: Expr,
+    },
+}
+
+/// A function for use inside the table.
+#[derive(Debug, Clone)]
+pub struct Helper {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// What it calls its arguments.
+    pub parameters: Vec<Spanned<String>>,
+    /// The lines of its value, of which the first that applies counts; the last one always applies.
+    pub lines: Vec<Line>,
+}
+
+/// What a function is claimed to be at particular places.
+#[derive(Debug, Clone)]
+pub struct Limit {
+    /// The whole claim.
+    pub span: Span,
+    /// The parameters that are fixed.
+    pub at: Vec<(Spanned<String>, Expr)>,
+    /// The value there.
+    pub value: Expr,
+}
+
+/// How accurate a function is claimed to be in `f32`: the error is at most
+/// `times` what half a unit in the last place of each parameter can change,
+/// and half a unit in the last place of `scale`.
+#[derive(Debug, Clone)]
+pub struct Accuracy {
+    /// The factor.
+    pub times: Spanned<f64>,
+    /// The natural size of the result.
+    pub scale: Expr,
+}
+
+/// Constant data.
+#[derive(Debug, Clone)]
+pub struct Constant {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// What it is.
+    pub value: ConstantValue,
+}
+
+/// What a constant is.
+#[derive(Debug, Clone)]
+pub enum ConstantValue {
+    /// One number.
+    Number(Expr),
+    /// A list of numbers, or of up to four numbers each.
+    List(Vec<Vec<Expr>>),
+}
+
+/// Another table whose functions are called in this one.
+#[derive(Debug, Clone)]
+pub struct Import {
+    /// What it is called here.
+    pub alias: Spanned<String>,
+    /// The file, relative to that of this table.
+    pub path: Spanned<String>,
+    /// The table, once it is read.
+    pub table: Option<Arc<Table>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Function", deny_unknown_fields)]
+struct FunctionRon<'a> {
+    #[serde(default)]
+    section: String,
+    #[serde(default)]
+    doc: String,
+    #[serde(borrow)]
+    parameters: Vec<Raw<'a>>,
+    #[serde(default = "RawMap::empty", rename = "let")]
+    bindings: RawMap<'a>,
+    #[serde(default)]
+    value: Option<Raw<'a>>,
+    #[serde(default)]
+    cases: Option<Vec<Raw<'a>>>,
+    #[serde(default)]
+    default: Option<Raw<'a>>,
+    #[serde(default = "RawMap::empty")]
+    domain: RawMap<'a>,
+    #[serde(default)]
+    limits: Vec<Raw<'a>>,
+    #[serde(default)]
+    error: Option<Raw<'a>>,
+    #[serde(default)]
+    errata: Vec<Raw<'a>>,
+    #[serde(default)]
+    examples: Vec<Raw<'a>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Limit", deny_unknown_fields)]
+struct LimitRon<'a> {
+    #[serde(borrow)]
+    at: RawMap<'a>,
+    value: Raw<'a>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Error", deny_unknown_fields)]
+struct AccuracyRon<'a> {
+    #[serde(borrow)]
+    times: Raw<'a>,
+    scale: Raw<'a>,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn function(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Function> {
+        let ron: FunctionRon<'a> = self.get(raw)?;
+        let name = self.word(name)?;
+        let shape = |message: &str| {
+            Err(Diagnostic::error(codes::FUNCTION_SHAPE, format!("function `{}`: {message}", name.value))
+                .at(name.span, "this function")
+                .help("a function has a `value`, or it has `cases` and a `default`"))
+        };
+        let body = match (ron.value, ron.cases, ron.default) {
+            (Some(value), None, None) => FunctionBody::Value(self.expr(value)?),
+            (None, Some(cases), Some(default)) => {
+                let cases = cases.into_iter().map(|case| self.case(case)).collect::<Result<Vec<_>>>()?;
+                if cases.is_empty() {
+                    return shape("`cases` is empty");
+                }
+                if !ron.examples.is_empty() {
+                    return shape("`examples` stand in the cases that they are examples of");
+                }
+                FunctionBody::Cases { cases, default: self.expr(default)? }
+            }
+            (None, Some(_), None) => return shape("has cases, but no `default`"),
+            (None, None, _) => return shape("returns nothing"),
+            _ => return shape("fields that exclude each other"),
+        };
+        let bindings = ron.bindings.0.iter().map(|(n, v)| Ok(Named { name: self.word(*n)?, value: self.expr(*v)? }));
+        let limits = ron.limits.into_iter().map(|limit| {
+            let span = self.span(limit);
+            let limit: LimitRon<'a> = self.get(limit)?;
+            let at = limit.at.0.iter().map(|(n, v)| Ok((self.word(*n)?, self.expr(*v)?))).collect::<Result<_>>()?;
+            Ok(Limit { span, at, value: self.expr(limit.value)? })
+        });
+        let accuracy = ron.error.map(|raw| {
+            let ron: AccuracyRon<'a> = self.get(raw)?;
+            let times = self.spanned::<f64>(ron.times)?;
+            if !(times.value > 0.0 && times.value.is_finite()) {
+                let error = Diagnostic::error(codes::DOMAIN, "`times` is a positive number");
+                return Err(error.at(times.span, "in this claim of accuracy"));
+            }
+            Ok(Accuracy { times, scale: self.expr(ron.scale)? })
+        });
+        Ok(Function {
+            section: ron.section,
+            doc: ron.doc,
+            parameters: ron.parameters.into_iter().map(|p| self.word(p)).collect::<Result<_>>()?,
+            bindings: bindings.collect::<Result<_>>()?,
+            body,
+            domain: ron.domain.0.iter().map(|(n, v)| self.assumption(*n, *v)).collect::<Result<_>>()?,
+            limits: limits.collect::<Result<_>>()?,
+            accuracy: accuracy.transpose()?,
+            errata: ron.errata.into_iter().map(|e| self.erratum(e)).collect::<Result<_>>()?,
+            examples: ron.examples.into_iter().map(|e| self.example(e)).collect::<Result<_>>()?,
+            name,
+        })
+    }
+
+    /// `"sinc(x)": "..."` or `"sinc(x)": [("...", "abs(x) < 1"), "sin(x) / x"]`
+    pub(super) fn helper(&self, signature: Raw<'a>, raw: Raw<'a>) -> Result<Helper> {
+        let (name, parameters) = self.signature(signature)?;
+        let lines = match self.shape(raw) {
+            Shape::List => {
+                self.get::<Vec<Raw<'a>>>(raw)?.into_iter().map(|line| self.line(line)).collect::<Result<Vec<_>>>()?
+            }
+            _ => vec![Line { value: self.expr(raw)?, condition: None }],
+        };
+        let shape = |message: String, at: Span, label: &str| {
+            Err(Diagnostic::error(codes::FUNCTION_SHAPE, message)
+                .at(at, label)
+                .help("the first line that applies counts; the last one, and only that, has no condition"))
+        };
+        let always = lines.iter().position(|line| line.condition.is_none());
+        match always {
+            None => shape(format!("`{}` may come to no value", name.value), self.span(raw), "no line always applies"),
+            Some(at) if at + 1 < lines.len() => {
+                shape(format!("`{}`: a line that is never reached", name.value), lines[at + 1].value.span, "this line")
+            }
+            Some(_) => Ok(Helper { name, parameters, lines }),
+        }
+    }
+
+    fn signature(&self, raw: Raw<'a>) -> Result<(Spanned<String>, Vec<Spanned<String>>)> {
+        let malformed = || {
+            Diagnostic::error(codes::FUNCTION_SHAPE, "this is not how a helper is declared")
+                .at(self.span(raw), "expected a name and its parameters")
+                .help("write it as it is called, for instance \"sinc(x)\"")
+        };
+        let ExprKind::Call(name, arguments) = self.expr(raw).map_err(|_| malformed())?.kind else {
+            return Err(malformed());
+        };
+        let parameters = arguments.into_iter().map(|argument| match argument.kind {
+            ExprKind::Name(name) => Ok(Spanned::new(argument.span, name)),
+            _ => Err(malformed()),
+        });
+        Ok((name, parameters.collect::<Result<_>>()?))
+    }
+
+    pub(super) fn constant(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Constant> {
+        let value = match self.shape(raw) {
+            Shape::List => {
+                let items = self.get::<Vec<Raw<'a>>>(raw)?.into_iter().map(|item| match self.shape(item) {
+                    Shape::Tuple => self.numbers(item),
+                    _ => Ok(vec![self.expr(item)?]),
+                });
+                ConstantValue::List(items.collect::<Result<_>>()?)
+            }
+            _ => ConstantValue::Number(self.expr(raw)?),
+        };
+        Ok(Constant { name: self.word(name)?, value })
+    }
+
+    /// `(0.5, "1 / 3")`: two to four numbers.
+    fn numbers(&self, raw: Raw<'a>) -> Result<Vec<Expr>> {
+        let parts: Vec<Raw<'a>> = match self.get::<(Raw<'a>, Raw<'a>)>(raw) {
+            Ok((a, b)) => vec![a, b],
+            Err(_) => match self.get::<(Raw<'a>, Raw<'a>, Raw<'a>)>(raw) {
+                Ok((a, b, c)) => vec![a, b, c],
+                Err(_) => {
+                    let (a, b, c, d) = self.get::<(Raw<'a>, Raw<'a>, Raw<'a>, Raw<'a>)>(raw).map_err(|_| {
+                        Diagnostic::error(codes::STRUCTURE, "an item of constant data has one to four numbers")
+                            .at(self.span(raw), "this item")
+                    })?;
+                    vec![a, b, c, d]
+                }
+            },
+        };
+        parts.into_iter().map(|part| self.expr(part)).collect()
+    }
+
+    pub(super) fn import(&self, alias: Raw<'a>, path: Raw<'a>) -> Result<Import> {
+        Ok(Import { alias: self.word(alias)?, path: self.spanned::<String>(path)?, table: None })
+    }
+}

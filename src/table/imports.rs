@@ -1,0 +1,74 @@
+//! Reads the tables that a table imports, and those that they import.
+
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use super::{MAX_BYTES, Table, names, read, read_text};
+use crate::diag::{Diagnostic, Failure, Source, codes};
+
+/// Most tables in a chain of imports.
+const MAX_CHAIN: usize = 8;
+
+/// Reads what a table imports. A mistake in an imported table is reported there.
+pub(super) fn resolve(table: Table) -> Result<Table, Failure> {
+    let own = plain(Path::new(&table.source.name));
+    follow(table, &[own])
+}
+
+fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
+    let source = table.source.clone();
+    let fail = |diagnostic| Failure::new(source.clone(), diagnostic);
+    let mut imports = std::mem::take(&mut table.imports);
+    for (index, import) in imports.iter().enumerate() {
+        names::check_inner(&import.alias.value, "an imported table", import.alias.span).map_err(fail)?;
+        if let Some(first) = imports[..index].iter().find(|other| other.alias.value == import.alias.value) {
+            let message = format!("two imported tables are called `{}`", import.alias.value);
+            let error = Diagnostic::error(codes::DUPLICATE, message).at(import.alias.span, "again");
+            return Err(fail(error.at(first.alias.span, "first here")));
+        }
+    }
+    for import in &mut imports {
+        let error = |message: String, label: &str| {
+            Diagnostic::error(codes::IMPORT, message).at(import.path.span, label.to_owned())
+        };
+        let folder = Path::new(&source.name).parent().unwrap_or(Path::new(""));
+        let path = plain(&folder.join(&import.path.value));
+        let name = path.to_string_lossy().replace('\\', "/");
+        if chain.contains(&path) {
+            let shown = chain.iter().chain([&path]).map(|p| p.to_string_lossy().replace('\\', "/"));
+            let message = format!("the imports form a circle: {}", shown.collect::<Vec<_>>().join(" -> "));
+            return Err(fail(error(message, "leads back").help("move what both need into a table of its own")));
+        }
+        if chain.len() == MAX_CHAIN {
+            return Err(fail(error(format!("more than {MAX_CHAIN} tables import each other"), "one too many")));
+        }
+        let text = read_text(&path, MAX_BYTES).map_err(|failure| {
+            let reason = failure.diagnostics.first().map_or(String::new(), |d| d.message.clone());
+            fail(
+                error(format!("the imported table `{name}` {reason}"), "imported here")
+                    .help("paths are relative to the file that imports"),
+            )
+        })?;
+        let imported = Source::new(&*name, text);
+        let read = read::table(&imported).map_err(|diagnostics| Failure { source: imported, diagnostics })?;
+        let chain: Vec<PathBuf> = chain.iter().cloned().chain([path]).collect();
+        import.table = Some(Arc::new(follow(read, &chain)?));
+    }
+    table.imports = imports;
+    Ok(table)
+}
+
+/// A path without `.` and, as far as that is possible, without `..`.
+fn plain(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {
+                out.pop();
+            }
+            part => out.push(part),
+        }
+    }
+    out
+}
