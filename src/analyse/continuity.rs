@@ -12,9 +12,7 @@ use super::space::{Space, View, Witness};
 use super::study::{Piece, Study};
 use super::words;
 use crate::diag::{Diagnostic, codes};
-use crate::program::{
-    Continuity, ContinuityKind, ExprId, InputId, InputSet, LevelSet, LevelTerm, Output, Program, Symmetry,
-};
+use crate::program::{Continuity, ContinuityKind, ExprId, InputId, InputSet, LevelSet, LevelTerm, Program, Symmetry};
 
 /// The case and line on either side.
 type Sides = [(Option<usize>, Option<usize>); 2];
@@ -91,14 +89,19 @@ fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
         let witness = space.witness(set)?;
         let here = Point::of(&wide, &witness);
         let there = here.image(&space.pool, &map);
-        let known: Vec<bool> = wide.input_ids().map(|(id, input)| {
-            input.fetched.is_none() || witness.levels[id.index()].is_some()
-        }).collect();
-        let read: Vec<bool> = wide.input_ids().map(|(id, input)| {
-            let stand_in = other.iter().find(|(own, _)| *own == id).is_some_and(|(_, s)| witness.levels[s.index()].is_some());
-            let mapped = map.levels.iter().any(|(own, _)| *own == id) && !other.iter().any(|(own, _)| *own == id);
-            input.fetched.is_none() || stand_in || mapped || known[id.index()]
-        }).collect();
+        let known: Vec<bool> = wide
+            .input_ids()
+            .map(|(id, input)| input.fetched.is_none() || witness.levels[id.index()].is_some())
+            .collect();
+        let read: Vec<bool> = wide
+            .input_ids()
+            .map(|(id, input)| {
+                let stand_in =
+                    other.iter().find(|(own, _)| *own == id).is_some_and(|(_, s)| witness.levels[s.index()].is_some());
+                let mapped = map.levels.iter().any(|(own, _)| *own == id) && !other.iter().any(|(own, _)| *own == id);
+                input.fetched.is_none() || stand_in || mapped || known[id.index()]
+            })
+            .collect();
         let numbers = all_numbers(program);
         let shorten = |mut witness: Witness| {
             witness.levels.truncate(program.inputs.len());
@@ -216,7 +219,7 @@ fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell
     }
     let mut largest: Vec<_> = largest.into_iter().collect();
     largest.sort_by(|a, b| b.1.0.total_cmp(&a.1.0));
-    let numbers = matches!(program.output, Output::Number | Output::Vector(_));
+    let numbers = !program.output.is_integer();
     let describe = |((a, b), (size, set, sides)): ((Option<usize>, Option<usize>), (f64, Set, Sides))| {
         let mut rows = vec![a, b];
         rows.dedup();

@@ -38,7 +38,8 @@ fn no_line(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> 
     let case = &program.rows[row];
     let count = study.space.count(without);
     let relevant = study.space.pool.cond_facts(case.guard).inputs;
-    let relevant = case.lines.iter().fold(relevant, |all, line| all.or(study.space.pool.cond_facts(line.condition).inputs));
+    let relevant =
+        case.lines.iter().fold(relevant, |all, line| all.or(study.space.pool.cond_facts(line.condition).inputs));
     let message = format!("case {} can match without a line that applies: the default decides", case.id);
     let last = case.lines.last().map_or(case.span, |line| line.span);
     let pruned = study.space.prune(without);
@@ -86,10 +87,19 @@ fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic>
         words::inputs_of(&study.space, &line.values).or(study.space.pool.cond_facts(line.condition).inputs).or(all)
     });
     let message = match pairs.len() {
-        1 => format!("lines {} and {} of case {} can apply together, with different values", first + 1, second + 1, case.id),
+        1 => format!(
+            "lines {} and {} of case {} can apply together, with different values",
+            first + 1,
+            second + 1,
+            case.id
+        ),
         count => {
             let (a, b) = (first + 1, second + 1);
-            format!("lines {a} and {b} of case {} can apply together, with different values; so can {} more pairs", case.id, count - 1)
+            format!(
+                "lines {a} and {b} of case {} can apply together, with different values; so can {} more pairs",
+                case.id,
+                count - 1
+            )
         }
     };
     let mut warning = Diagnostic::warning(codes::LINES_CROSS, message)
@@ -185,13 +195,7 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
 
 /// Choices inside a value that never go one way. What a name of the table
 /// stands for is left alone: it may be needed elsewhere.
-fn dead_choices(
-    study: &mut Study<'_>,
-    place: (usize, usize),
-    value: ExprId,
-    within: Set,
-    found: &mut Vec<Diagnostic>,
-) {
+fn dead_choices(study: &mut Study<'_>, place: (usize, usize), value: ExprId, within: Set, found: &mut Vec<Diagnostic>) {
     if study.space.pool.label(value).is_some() || !study.space.pool.expr_facts(value).selects {
         return;
     }

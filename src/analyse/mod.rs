@@ -7,9 +7,11 @@
 
 mod continuity;
 mod coverage;
+mod errata;
 mod examples;
 mod levels;
 mod lines;
+mod mutate;
 mod numbers;
 mod orbit;
 mod overlap;
@@ -31,8 +33,10 @@ use crate::program::Program;
 use study::Study;
 
 pub use coverage::{Coverage, Dead, coverage};
+pub use errata::{errata, seeded};
 pub use examples::agrees;
 pub use levels::{FINDINGS, Findings, Level, Levels};
+pub use mutate::{Mistake, Tally, survey};
 pub use numbers::{Range, ranges};
 pub use overlap::{Overlap, overlaps};
 #[cfg(feature = "precise")]
@@ -48,16 +52,15 @@ const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[
 ];
 
 /// Analyses that look at all inputs at once.
-const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] =
-    &[
-        overlap::findings,
-        coverage::findings,
-        lines::findings,
-        symmetry::findings,
-        continuity::findings,
-        numbers::findings,
-        style::findings,
-    ];
+const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] = &[
+    overlap::findings,
+    coverage::findings,
+    lines::findings,
+    symmetry::findings,
+    continuity::findings,
+    numbers::findings,
+    style::findings,
+];
 
 /// Everything that is questionable or worth knowing about a program, without
 /// what the table itself acknowledges.

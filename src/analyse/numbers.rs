@@ -3,12 +3,11 @@
 
 use super::real::{self, Boxed, Trouble};
 use super::sets::Set;
-use super::space::View;
 use super::study::Study;
 use super::words;
 use crate::diag::{Diagnostic, codes};
 use crate::program::print::Printer;
-use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputSet, Node, Output, Program, TernaryOp};
+use crate::program::{Comparison, Cond, CondId, ExprId, Node, Program, TernaryOp};
 
 /// What a row gives before and after the output's clamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,10 +42,13 @@ fn range(study: &mut Study<'_>, row: Option<usize>) -> Option<Range> {
             let inner = words::bare(&study.space, value);
             let (lo, hi) = real::range(study.program, &study.space.pool, inner, PRECISION);
             widen(&mut before, (lo, hi));
-            widen(&mut after, match clamp(study, value) {
-                Some((from, to)) => (lo.clamp(from, to), hi.clamp(from, to)),
-                None => (lo, hi),
-            });
+            widen(
+                &mut after,
+                match clamp(study, value) {
+                    Some((from, to)) => (lo.clamp(from, to), hi.clamp(from, to)),
+                    None => (lo, hi),
+                },
+            );
         }
     }
     Some(Range { row, before: before?, after: after? })
@@ -83,7 +85,7 @@ fn beyond_the_clamp(study: &mut Study<'_>) -> Vec<Diagnostic> {
         for (line, written) in case.lines.iter().enumerate() {
             let pieces = study.pieces.iter().filter(|piece| piece.row == Some(row) && piece.line == Some(line));
             let pieces: Vec<_> = pieces.cloned().collect();
-            let Some((lo, hi)) = written.values.first().and_then(|value| clamp_in(study, *value)) else { continue };
+            let Some((lo, hi)) = written.values.first().and_then(|value| clamp(study, *value)) else { continue };
             let mut sides = [true, true];
             let mut counts = false;
             for piece in pieces {
@@ -118,14 +120,6 @@ fn beyond_the_clamp(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// The clamp of the output, looked for behind a choice.
-fn clamp_in(study: &Study<'_>, value: ExprId) -> Option<(f64, f64)> {
-    match study.program.output {
-        Output::Number | Output::Vector(_) => clamp(study, value),
-        Output::Enumeration(_) | Output::List { .. } => None,
-    }
-}
-
 /// Operations that can yield infinity or NaN.
 fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
@@ -148,8 +142,8 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 continue;
             }
             let what = Printer { pool: &study.space.pool, inputs: &program.inputs }.expr(trouble.expr);
-            let mut warning = Diagnostic::warning(codes::NOT_A_NUMBER, message)
-                .at(span, format!("`{what}` {}", trouble.what));
+            let mut warning =
+                Diagnostic::warning(codes::NOT_A_NUMBER, message).at(span, format!("`{what}` {}", trouble.what));
             if let Some(mut witness) = study.space.with_numbers(set, &numbers) {
                 witness.numbers = numbers.iter().map(|number| Some(*number)).collect();
                 let relevant = study.space.pool.expr_facts(*value).inputs;

@@ -74,12 +74,11 @@ impl Orbit {
     /// Follows some symmetries from a point, to wherever the assumptions hold.
     pub(super) fn new(program: &Program, start: Point, along: &[usize]) -> Self {
         let pool = &program.pool;
-        let scales: Vec<(usize, Scale)> = along
-            .iter()
-            .filter_map(|number| Some((*number, Scale::of(pool, &program.symmetries[*number])?)))
-            .collect();
+        let scales: Vec<(usize, Scale)> =
+            along.iter().filter_map(|number| Some((*number, Scale::of(pool, &program.symmetries[*number])?))).collect();
         let outcome = start.outcome(program);
-        let first = Member { says: outcome.values.clone(), point: start, outcome, path: Vec::new(), scale: Scale::SAME };
+        let first =
+            Member { says: outcome.values.clone(), point: start, outcome, path: Vec::new(), scale: Scale::SAME };
         let mut members = vec![first];
         let mut next = 0;
         while next < members.len() && members.len() < MAX_MEMBERS {

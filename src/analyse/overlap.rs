@@ -141,7 +141,8 @@ fn order_matters(study: &mut Study<'_>, first: usize, later: &[usize], suggest: 
     let program = study.program;
     let case = &program.rows[first];
     let all: Vec<Option<usize>> = later.iter().copied().map(Some).collect();
-    let message = format!("case {} must come before {}: they hold together and differ", case.id, words::cases(program, &all));
+    let message =
+        format!("case {} must come before {}: they hold together and differ", case.id, words::cases(program, &all));
     let mut note = Diagnostic::note(codes::ORDER_MATTERS, message).at(case.guard_span, "");
     for second in later.iter().take(3) {
         note = note.at(program.rows[*second].guard_span, "");
@@ -251,7 +252,8 @@ mod tests {
 
     #[test]
     fn guards_that_exclude_each_other_and_equal_values_are_not() {
-        let contradictions = |found: Vec<String>| found.into_iter().filter(|f| f.starts_with("U0502")).collect::<Vec<_>>();
+        let contradictions =
+            |found: Vec<String>| found.into_iter().filter(|f| f.starts_with("U0502")).collect::<Vec<_>>();
         let fine = |first, second| assert_eq!(contradictions(unique(first, second)), [""; 0]);
         fine(r#""x < 0.5", value: 1"#, r#""x >= 0.5", value: 2"#);
         fine(r#""x < 0.5", value: 1"#, r#""2 * x - 1 > 0.25", value: 2"#);

@@ -4,9 +4,7 @@
 //! piecewise linear nothing is rounded here.
 
 use super::space::Witness;
-use crate::program::{
-    Comparison, Cond, CondId, ExprId, InputId, LevelTerm, Node, Pool, Program, Symmetry, Value,
-};
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, LevelTerm, Node, Pool, Program, Symmetry, Value};
 
 /// A value for every input.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,9 +104,7 @@ impl Point {
             let discrete = program.levels(InputId::new(input)).is_some();
             (discrete && read[input]).then_some(*level)
         };
-        let number = |(input, number): (usize, &f64)| {
-            program.levels(InputId::new(input)).is_none().then_some(*number)
-        };
+        let number = |(input, number): (usize, &f64)| program.levels(InputId::new(input)).is_none().then_some(*number);
         Witness {
             levels: self.levels.iter().enumerate().map(level).collect(),
             numbers: self.numbers.iter().enumerate().map(number).collect(),

@@ -46,7 +46,8 @@ impl Boxed {
     /// The middle and the corners in the directions of some inputs, of which only the first few count.
     pub(super) fn corners(&self, inputs: InputSet) -> Vec<Vec<f64>> {
         let mut points = vec![self.middle()];
-        let directions: Vec<_> = inputs.iter().filter(|input| self.lo[input.index()] < self.hi[input.index()]).collect();
+        let directions: Vec<_> =
+            inputs.iter().filter(|input| self.lo[input.index()] < self.hi[input.index()]).collect();
         let directions = &directions[..directions.len().min(5)];
         for bits in 0..1_usize << directions.len() {
             let mut point = self.middle();
@@ -97,10 +98,12 @@ pub(super) fn is_partial(pool: &Pool, expr: ExprId) -> bool {
     let any = |parts: &[ExprId]| parts.iter().any(|part| is_partial(pool, *part));
     match pool.node(expr) {
         Node::Const(_) | Node::Input(_) | Node::Result => false,
-        Node::Unary(op, a) => !matches!(
-            op,
-            UnaryOp::Negate | UnaryOp::Abs | UnaryOp::Sign | UnaryOp::Saturate | UnaryOp::Floor | UnaryOp::Ceil
-        ) || any(&[a]),
+        Node::Unary(op, a) => {
+            !matches!(
+                op,
+                UnaryOp::Negate | UnaryOp::Abs | UnaryOp::Sign | UnaryOp::Saturate | UnaryOp::Floor | UnaryOp::Ceil
+            ) || any(&[a])
+        }
         Node::Binary(op, a, b) => match op {
             BinaryOp::Add | BinaryOp::Subtract | BinaryOp::Min | BinaryOp::Max | BinaryOp::Step => any(&[a, b]),
             BinaryOp::Divide if pool.constant(b).is_some() => any(&[a, b]),
@@ -283,17 +286,12 @@ fn binary(op: BinaryOp, a: Interval, b: Interval) -> (Interval, Option<&'static 
         },
         BinaryOp::Atan2 if has_zero(a) && has_zero(b) => (ANY, Some("can be the angle of the origin")),
         BinaryOp::Atan2 if b.0 <= 0.0 && has_zero(a) => ((-PI, PI), None),
-        BinaryOp::Atan2 => hull([
-            libm::atan2(a.0, b.0),
-            libm::atan2(a.0, b.1),
-            libm::atan2(a.1, b.0),
-            libm::atan2(a.1, b.1),
-        ]),
+        BinaryOp::Atan2 => {
+            hull([libm::atan2(a.0, b.0), libm::atan2(a.0, b.1), libm::atan2(a.1, b.0), libm::atan2(a.1, b.1)])
+        }
         BinaryOp::Pow if a.0 < 0.0 => (ANY, Some("can be a power of a negative number")),
         BinaryOp::Pow if a.0 == 0.0 && b.0 <= 0.0 => (ANY, Some("can be zero to a power that is not positive")),
-        BinaryOp::Pow => {
-            hull([libm::pow(a.0, b.0), libm::pow(a.0, b.1), libm::pow(a.1, b.0), libm::pow(a.1, b.1)])
-        }
+        BinaryOp::Pow => hull([libm::pow(a.0, b.0), libm::pow(a.0, b.1), libm::pow(a.1, b.0), libm::pow(a.1, b.1)]),
     }
 }
 

@@ -282,7 +282,13 @@ impl Sets {
         self.fix_memo(set, digit, level, &mut HashMap::default())
     }
 
-    fn fix_memo(&mut self, set: Set, digit: usize, level: usize, memo: &mut HashMap<Set, Set, BuildHasherDefault<Mixer>>) -> Set {
+    fn fix_memo(
+        &mut self,
+        set: Set,
+        digit: usize,
+        level: usize,
+        memo: &mut HashMap<Set, Set, BuildHasherDefault<Mixer>>,
+    ) -> Set {
         let (tested, children) = match self.test(set) {
             Some((tested, children)) if tested == digit => return children[level],
             Some((tested, children)) if tested < digit => (tested, children.to_vec()),

@@ -15,6 +15,8 @@ use std::rc::Rc;
 
 use num_traits::{Signed, Zero};
 
+use super::mutate::Random;
+use super::point::Point;
 use super::real::Boxed;
 use super::sets::{Set, Sets};
 use crate::program::normal::{Affine, Lattice, Normaliser, Rational, Term, rational};
@@ -148,7 +150,13 @@ impl<'p> Space<'p> {
 
     fn level_term(&mut self, term: &LevelTerm, levels: LevelSet, view: View) -> Set {
         match term {
-            LevelTerm::Const(level) => if levels.contains(*level) { Set::ALL } else { Set::EMPTY },
+            LevelTerm::Const(level) => {
+                if levels.contains(*level) {
+                    Set::ALL
+                } else {
+                    Set::EMPTY
+                }
+            }
             LevelTerm::Input(input) => self.level(*input, levels, view),
             LevelTerm::If(condition, then, other) => {
                 let condition = self.condition(*condition, view);
@@ -630,6 +638,33 @@ impl<'p> Space<'p> {
             Question::Opaque => false,
         };
         (0..self.questions.len()).filter(|number| involved(&self.questions[*number])).map(|n| n + first).collect()
+    }
+
+    /// Some input that reaches a set, if one does.
+    pub(super) fn sample(&mut self, set: Set, random: &mut Random) -> Option<Point> {
+        let mut rest = self.prune(set);
+        let program = self.program;
+        let count = |input: InputId| program.levels(input).map_or(1, |levels| levels.count());
+        let mut levels: Vec<u8> = program.input_ids().map(|(id, _)| random.below(count(id)) as u8).collect();
+        while let Some((digit, children)) = self.sets.test(rest)
+            && let Some(input) = self.input_of(digit)
+        {
+            let open: Vec<usize> = (0..children.len()).filter(|level| !children[*level].is_empty()).collect();
+            let level = *open.get(random.below(open.len()))?;
+            levels[input.index()] = level as u8;
+            rest = children[level];
+        }
+        let answers = self.signs(rest)?;
+        let signs = self.forms_of(&answers);
+        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+        let point = region::point(program, with_forms).unwrap_or_default();
+        let mut numbers: Vec<f64> = self.numbers(&point).into_iter().map(Option::unwrap_or_default).collect();
+        for (id, input) in program.input_ids() {
+            if let (Domain::Continuous { lo, hi, .. }, false) = (&input.domain, point.contains_key(&id)) {
+                numbers[id.index()] = lo + (hi - lo) * (random.below(255) as f64 + 0.5) / 256.0;
+            }
+        }
+        Some(Point { levels, numbers })
     }
 
     /// The level that an input has when nothing is said of it.

@@ -216,7 +216,8 @@ fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnos
     let mut warning = Diagnostic::warning(codes::SYMMETRY_BROKEN, message)
         .at(span(program, place, symmetric), format!("here it gives {was}"));
     if other.0 != row || other.1 != line {
-        warning = warning.at(span(program, other, symmetric), format!("{} says {should} for it", called(program, other)));
+        warning =
+            warning.at(span(program, other, symmetric), format!("{} says {should} for it", called(program, other)));
     }
     let numbers = |values: &[f64]| values.iter().map(|value| words::short(*value)).collect::<Vec<_>>().join(", ");
     let own = &orbit.members[0];
@@ -325,14 +326,8 @@ mod tests {
 
     #[test]
     fn broken_symmetries_are_found() {
-        assert_eq!(
-            mirrored("if s == left { 2 * x } else { 2 - 2 * x }"),
-            ["U0506 case 1 contradicts its own image"]
-        );
-        assert_eq!(
-            mirrored("if s == left { x } else { x }"),
-            ["U0506 case 1 contradicts its own image"]
-        );
+        assert_eq!(mirrored("if s == left { 2 * x } else { 2 - 2 * x }"), ["U0506 case 1 contradicts its own image"]);
+        assert_eq!(mirrored("if s == left { x } else { x }"), ["U0506 case 1 contradicts its own image"]);
         // Equal only once clamped, and only because x ends at 1.
         assert_eq!(mirrored("if s == left { min(x, 1) } else { max(1 - x, 0) }"), [""; 0]);
         assert_eq!(mirrored("if x < 0.5 { 0.25 } else { if x == 0.5 { 0.5 } else { 0.75 } }").len(), 1);

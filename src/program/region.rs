@@ -87,7 +87,10 @@ pub(crate) fn point<'a>(
         let value = between(lo?, hi?, point.len())?;
         point.insert(variable, value);
     }
-    point.into_iter().map(|(term, value)| if let Term::Input(input) = term { Some((input, value)) } else { None }).collect()
+    point
+        .into_iter()
+        .map(|(term, value)| if let Term::Input(input) = term { Some((input, value)) } else { None })
+        .collect()
 }
 
 /// A number between two others that is short in binary and, for a different
