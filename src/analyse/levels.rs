@@ -31,10 +31,10 @@ pub const FINDINGS: &[(Code, &str)] = &[
     (codes::POLE, "a division by zero where it has none"),
     (codes::CANCELS, "terms that cancel on paper only"),
     (codes::OVERFLOW, "an overflow on the way to a finite value"),
-    (codes::REMOVABLE, "a singularity that a series would remove"),
-    (codes::POLE, "a pole, or the end of a domain"),
-    (codes::CANCELS, "a difference that cancels"),
-    (codes::OVERFLOW, "an operation that overflows"),
+    (codes::REMOVABLE, "a divisor that is zero where the whole has a limit"),
+    (codes::POLE, "a divisor that is zero where there is no limit"),
+    (codes::CANCELS, "equal terms of a difference, divided by something small"),
+    (codes::OVERFLOW, "an intermediate result that overflows"),
     (codes::UNUSED_ALLOW, "an `allow` that acknowledges nothing"),
 ];
 

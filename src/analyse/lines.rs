@@ -37,9 +37,7 @@ fn no_line(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> 
     let program = study.program;
     let case = &program.rows[row];
     let count = study.space.count(without);
-    let relevant = study.space.pool.cond_facts(case.guard).inputs;
-    let relevant =
-        case.lines.iter().fold(relevant, |all, line| all.or(study.space.pool.cond_facts(line.condition).inputs));
+    let relevant = words::mentioned(program, row);
     let message = format!("case {} can match without a line that applies: the default decides", case.id);
     let last = case.lines.last().map_or(case.span, |line| line.span);
     let pruned = study.space.prune(without);
@@ -82,10 +80,7 @@ fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic>
     }
     let (first, second, different) = *pairs.first()?;
     let witness = study.space.witness(different)?;
-    let relevant = [first, second].into_iter().fold(study.space.pool.cond_facts(case.guard).inputs, |all, line| {
-        let line = &case.lines[line];
-        words::inputs_of(&study.space, &line.values).or(study.space.pool.cond_facts(line.condition).inputs).or(all)
-    });
+    let relevant = words::mentioned(program, row);
     let message = match pairs.len() {
         1 => format!(
             "lines {} and {} of case {} can apply together, with different values",
@@ -95,11 +90,8 @@ fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic>
         ),
         count => {
             let (a, b) = (first + 1, second + 1);
-            format!(
-                "lines {a} and {b} of case {} can apply together, with different values; so can {} more pairs",
-                case.id,
-                count - 1
-            )
+            let more = if count == 2 { "one more pair".to_owned() } else { format!("{} more pairs", count - 1) };
+            format!("lines {a} and {b} of case {} can apply together, with different values; so can {more}", case.id)
         }
     };
     let mut warning = Diagnostic::warning(codes::LINES_CROSS, message)

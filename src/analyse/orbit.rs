@@ -114,9 +114,10 @@ impl Orbit {
         self.camps.len() == 1
     }
 
-    /// Whether one camp is larger than any other.
+    /// Whether one camp is larger than any other and at least half of all.
     pub(super) fn has_majority(&self) -> bool {
-        self.camps.len() == 1 || self.camps[0].len() > self.camps[1].len()
+        let first = self.camps[0].len();
+        2 * first >= self.members.len() && self.camps.get(1).is_none_or(|second| first > second.len())
     }
 
     /// The nearest member that disagrees with the first, of the largest camp if that is not the first's own.

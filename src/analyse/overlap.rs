@@ -6,10 +6,11 @@
 //! `Unique` it is an error.
 
 use super::sets::Set;
+use super::space::Space;
 use super::study::Study;
 use super::words;
 use crate::diag::{Diagnostic, codes};
-use crate::program::{LevelSet, Program};
+use crate::program::{InputSet, LevelSet, Program};
 use crate::table::HitPolicy;
 
 /// Two cases whose guards can hold together.
@@ -78,12 +79,8 @@ fn overlap(study: &mut Study<'_>, first: usize, second: usize, earlier: Set) -> 
     })
 }
 
-fn relevant(study: &Study<'_>, first: usize, second: usize) -> crate::program::InputSet {
-    let values = [first, second].into_iter().flat_map(|row| &study.rows.own[row]).flat_map(|piece| &piece.values);
-    let values: Vec<_> = values.copied().collect();
-    let rows = &study.program.rows;
-    let guards = [first, second].map(|row| study.space.pool.cond_facts(rows[row].guard).inputs);
-    words::inputs_of(&study.space, &values).or(guards[0]).or(guards[1])
+fn relevant(study: &Study<'_>, first: usize, second: usize) -> InputSet {
+    words::mentioned(study.program, first).or(words::mentioned(study.program, second))
 }
 
 /// Where both cases hold, within a set, with different values.
@@ -194,7 +191,11 @@ fn disjoint(study: &mut Study<'_>, row: usize) -> Option<String> {
             if excluded == 0 {
                 continue;
             }
+            // Levels that the guard never meets anyway may be in or out, whichever is shorter to say.
             let allowed = LevelSet(LevelSet::all(study.space.sets.levels(digit)).0 & !excluded);
+            let length = |space: &mut Space<'_>, levels| words::condition(space, &[(digit, levels)]).len();
+            let shorter = length(&mut study.space, LevelSet(kept)) < length(&mut study.space, allowed);
+            let allowed = if shorter { LevelSet(kept) } else { allowed };
             let atom = study.space.sets.atom(digit, allowed);
             let rest = study.space.sets.and(masked, atom);
             let left = study.space.count(rest) as f64;

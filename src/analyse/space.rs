@@ -486,7 +486,7 @@ impl<'p> Space<'p> {
     /// In how many states something can reach a set.
     pub(super) fn count(&mut self, set: Set) -> usize {
         let states = self.states(set);
-        self.sets.count(states, self.state_digits()) as usize
+        self.sets.count(states, self.state_digits()).round() as usize
     }
 
     /// Signs and outcomes, by digit, with which numbers reach a set that tests only these.
@@ -506,8 +506,10 @@ impl<'p> Space<'p> {
         if *steps == 0 {
             return true;
         }
-        let children = children.to_vec();
-        for (level, child) in children.into_iter().enumerate() {
+        // Points on lines mean more than they seem to, so zero is tried last.
+        let order: &[usize] = if children.len() == Sign::ALL.len() { &[0, 2, 1] } else { &[0, 1] };
+        let children: Vec<(usize, Set)> = order.iter().map(|level| (*level, children[*level])).collect();
+        for (level, child) in children {
             if child.is_empty() {
                 continue;
             }

@@ -32,8 +32,6 @@ struct Odd {
     point: Point,
     votes: (usize, usize),
     along: Vec<usize>,
-    /// In how many ways it was met; of several, the first is shown.
-    count: usize,
 }
 
 /// A warning for each line that most of its images contradict, and for cases
@@ -41,15 +39,19 @@ struct Odd {
 pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut odd: BTreeMap<Place, Odd> = BTreeMap::new();
-    let mut torn: BTreeMap<(Vec<Option<usize>>, Vec<Option<usize>>), (Point, Vec<usize>, usize)> = BTreeMap::new();
-    let mut assumed: BTreeMap<(Option<usize>, Option<usize>), Contradiction> = BTreeMap::new();
+    let mut torn: BTreeMap<(Vec<Option<usize>>, Vec<Option<usize>>), (Point, Vec<usize>)> = BTreeMap::new();
+    // By the symmetry and the first of the two rows, in the order written.
+    let mut assumed: BTreeMap<(Option<usize>, usize), Vec<Contradiction>> = BTreeMap::new();
     let all: Vec<usize> = (0..program.symmetries.len()).collect();
     let plain: Vec<usize> = all.iter().copied().filter(|s| program.symmetries[*s].result.is_none()).collect();
     for number in 0..program.symmetries.len() {
         let (broken, saved) = contradictions(study, number);
         for contradiction in saved {
             let (a, b) = contradiction.rows;
-            assumed.entry((a.min(b), a.max(b))).or_insert(contradiction);
+            let group = assumed.entry((a.min(b), number)).or_default();
+            if group.iter().all(|other| other.rows != (b, a) && other.rows != (a, b)) {
+                group.push(contradiction);
+            }
         }
         for contradiction in broken {
             let Some(witness) = study.space.witness(contradiction.set) else { continue };
@@ -63,29 +65,36 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                     continue;
                 }
             }
-            let decided = !changes && near.has_majority() && !near.is_unanimous();
-            let (orbit, along) = match decided {
-                true => (near, &plain),
-                false => (Orbit::new(program, start.clone(), &all), &all),
-            };
-            if orbit.is_unanimous() {
+            if !changes && near.is_unanimous() {
                 continue;
             }
-            if orbit.has_majority() && !changes {
-                let (most, total) = (orbit.camps[0].len(), orbit.members.len());
-                for camp in 1..orbit.camps.len() {
-                    for member in &orbit.camps[camp] {
-                        let member = &orbit.members[*member];
-                        let place = (member.outcome.row, member.outcome.line);
-                        let found = odd.entry(place).or_insert_with(|| Odd {
-                            point: member.point.clone(),
-                            votes: (most, total),
-                            along: along.clone(),
-                            count: 0,
-                        });
-                        found.count += 1;
-                    }
+            let wide = Orbit::new(program, start.clone(), &all);
+            // Others may settle what the nearest images leave open, but only by taking one of their sides.
+            let sides_with_near = |orbit: &Orbit| {
+                let mut camp = orbit.camps[0].iter().map(|member| &orbit.members[*member].point);
+                camp.any(|point| near.members.iter().any(|member| member.point == *point))
+            };
+            let verdict = match (changes, near.has_majority()) {
+                (true, _) => None,
+                (false, true) => Some((&near, &plain)),
+                (false, false) if wide.has_majority() && sides_with_near(&wide) => Some((&wide, &all)),
+                (false, false) => None,
+            };
+            if let Some((orbit, along)) = verdict {
+                let votes = (orbit.camps[0].len(), orbit.members.len());
+                for member in orbit.camps[1..].iter().flatten() {
+                    let member = &orbit.members[*member];
+                    let place = (member.outcome.row, member.outcome.line);
+                    odd.entry(place).or_insert_with(|| Odd {
+                        point: member.point.clone(),
+                        votes,
+                        along: along.clone(),
+                    });
                 }
+                continue;
+            }
+            let (orbit, along) = if changes { (&wide, &all) } else { (&near, &plain) };
+            if orbit.is_unanimous() {
                 continue;
             }
             let rows = |camp: usize| {
@@ -94,17 +103,17 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 rows
             };
             let key = (rows(0).min(rows(1)), rows(0).max(rows(1)));
-            torn.entry(key).or_insert_with(|| (start, along.clone(), 0)).2 += 1;
+            torn.entry(key).or_insert_with(|| (start, along.clone()));
         }
     }
     let mut found: Vec<Diagnostic> = Vec::new();
     for (place, odd) in odd {
         found.extend(odd_one_out(study, place, &odd));
     }
-    for ((first, second), (point, along, _)) in &torn {
+    for ((first, second), (point, along)) in &torn {
         found.extend(undecided(study, (first, second), point, along));
     }
-    found.extend(assumed.into_values().map(|contradiction| only_assumed(study, &contradiction)));
+    found.extend(assumed.into_values().filter_map(|group| only_assumed(study, &group)));
     found
 }
 
@@ -183,13 +192,7 @@ fn place_at(study: &Study<'_>, point: &Point, row: Option<usize>) -> String {
     let pool = &program.pool;
     let read = match row {
         None => program.default.iter().fold(Default::default(), |all: InputSet, v| all.or(pool.expr_facts(*v).inputs)),
-        Some(row) => {
-            let row = &program.rows[row];
-            row.lines.iter().fold(pool.cond_facts(row.guard).inputs, |all, line| {
-                let values = line.values.iter().fold(all, |all, value| all.or(pool.expr_facts(*value).inputs));
-                values.or(pool.cond_facts(line.condition).inputs)
-            })
-        }
+        Some(row) => words::mentioned(program, row),
     };
     let wanted: Vec<bool> = program.input_ids().map(|(id, i)| i.fetched.is_none() || read.contains(id)).collect();
     words::at(program, &point.witness(program, &wanted), read)
@@ -276,34 +279,33 @@ fn short(values: &[f64]) -> String {
     values.iter().map(|value| words::short(*value)).collect::<Vec<_>>().join(", ")
 }
 
-fn only_assumed(study: &mut Study<'_>, contradiction: &Contradiction) -> Diagnostic {
+/// A note on rows that contradict one row only where no assumption admits it.
+fn only_assumed(study: &mut Study<'_>, group: &[Contradiction]) -> Option<Diagnostic> {
     let program = study.program;
+    let contradiction = group.first()?;
     let symmetry = &program.symmetries[contradiction.symmetry];
-    let (a, b) = contradiction.rows;
-    let mut rows = vec![a, b];
-    rows.sort_unstable();
-    rows.dedup();
-    let names = words::cases(program, &rows);
-    let message = match rows.len() {
-        1 => format!("{names} is its own image under `{}` only by assumption", symmetry.name),
-        _ => format!("{names} are images under `{}` only by assumption", symmetry.name),
+    let row = contradiction.rows.0.min(contradiction.rows.1);
+    let mut others: Vec<Option<usize>> = group.iter().map(|pair| pair.rows.0.max(pair.rows.1)).collect();
+    others.sort_unstable();
+    others.dedup();
+    let name = words::cases(program, &[row]);
+    let message = match others.as_slice() {
+        [one] if *one == row => format!("{name} is its own image under `{}` by assumption only", symmetry.name),
+        _ => format!("{name} agrees with its images under `{}` by assumption only: {}", symmetry.name, {
+            words::cases(program, &others)
+        }),
     };
     let blamed: Vec<String> = study.blame(contradiction.set).into_iter().map(|name| format!("`{name}`")).collect();
-    let note = Diagnostic::note(codes::SYMMETRY_ASSUMED, message);
-    let first = rows.iter().flatten().next().map(|row| program.rows[*row].guard_span);
-    let note = note.at(first.unwrap_or(symmetry.span), "");
-    let note = match blamed.is_empty() {
+    let span = row.map_or(symmetry.span, |row| program.rows[row].guard_span);
+    let note = Diagnostic::note(codes::SYMMETRY_ASSUMED, message).at(span, "");
+    let taken = match blamed.is_empty() {
         // The image of an assumption rules it out.
-        true => note.help("where the assumptions hold for the inputs and for their images"),
-        false => note.help(format!("where {} hold for both", words::list(&blamed))),
+        true => "it takes the assumptions for the inputs and for their images".to_owned(),
+        false => format!("it takes {}", words::list(&blamed)),
     };
-    match study.space.witness(contradiction.set) {
-        Some(witness) => {
-            let point = Point::of(program, &witness);
-            note.help(format!("otherwise they differ, for instance at {}", place_at(study, &point, a)))
-        }
-        None => note,
-    }
+    let witness = study.space.witness(contradiction.set)?;
+    let at = place_at(study, &Point::of(program, &witness), contradiction.rows.0);
+    Some(note.help(taken).help(format!("otherwise they differ, for instance at {at}")))
 }
 
 #[cfg(test)]

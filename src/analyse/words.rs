@@ -9,14 +9,14 @@ use crate::program::normal::{Affine, Rational, Term};
 use crate::program::print::Printer;
 use crate::program::{Domain, ExprId, InputSet, LevelSet, Node, Program, TernaryOp, Value};
 
-/// Inputs in the form that `explain --at` takes. Numbers are left out unless
-/// they are among the `relevant` inputs or have no default.
+/// Inputs in the form that `explain --at` takes. Numbers and fetched inputs are
+/// left out unless they are among the `relevant` ones or have to be given.
 pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> String {
     let mut parts = Vec::new();
     for (id, input) in program.input_ids() {
         let value = match &input.domain {
             Domain::Discrete(_) => match (witness.levels[id.index()], input.fetched, input.default) {
-                (Some(level), ..) => Some(Value::Level(level)),
+                (Some(level), fetched, _) if fetched.is_none() || relevant.contains(id) => Some(Value::Level(level)),
                 (None, None, None) => Some(Value::Level(0)),
                 _ => None,
             },
@@ -36,9 +36,13 @@ pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> St
     }
 }
 
-/// The inputs that some values depend on.
-pub(super) fn inputs_of(space: &Space<'_>, values: &[ExprId]) -> InputSet {
-    values.iter().fold(InputSet::default(), |set, value| set.or(space.pool.expr_facts(*value).inputs))
+/// The inputs that a row mentions.
+pub(super) fn mentioned(program: &Program, row: usize) -> InputSet {
+    let (row, pool) = (&program.rows[row], &program.pool);
+    row.lines.iter().fold(pool.cond_facts(row.guard).inputs, |all, line| {
+        let values = line.values.iter().fold(all, |all, value| all.or(pool.expr_facts(*value).inputs));
+        values.or(pool.cond_facts(line.condition).inputs)
+    })
 }
 
 /// A set of states as conditions, at most `most` of them; `None` for more than

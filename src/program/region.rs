@@ -84,7 +84,8 @@ pub(crate) fn point<'a>(
                 hi = Some(hi.map_or(limit, |hi| hi.min(limit)));
             }
         }
-        let value = between(lo?, hi?, point.len())?;
+        let salt = if let Term::Input(input) = &variable { input.index() } else { 0 };
+        let value = between(lo?, hi?, salt)?;
         point.insert(variable, value);
     }
     point
@@ -96,10 +97,11 @@ pub(crate) fn point<'a>(
 /// A number between two others that is short in binary and, for a different
 /// `salt`, at a different place: points that mean nothing in particular.
 pub(crate) fn between(lo: Rational, hi: Rational, salt: usize) -> Option<Rational> {
-    let places = [5, 11, 7, 9, 6, 10];
-    let step = (hi - lo).checked_mul(&Rational::new(places[salt % places.len()], 16))?;
+    // No sum, difference or complement of two of these is another one.
+    let places = [41, 89, 55, 71, 37, 83];
+    let step = (hi - lo).checked_mul(&Rational::new(places[salt % places.len()], 128))?;
     let inside = lo.checked_add(&step)?;
-    let rounded = (inside.checked_mul(&Rational::from_integer(64))?.round()).checked_mul(&Rational::new(1, 64))?;
+    let rounded = (inside.checked_mul(&Rational::from_integer(1024))?.round()).checked_mul(&Rational::new(1, 1024))?;
     Some(if lo < rounded && rounded < hi { rounded } else { inside })
 }
 
