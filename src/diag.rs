@@ -202,6 +202,7 @@ pub mod codes {
     pub const POLE: Code = Code("U0552");
     pub const CANCELS: Code = Code("U0553");
     pub const OVERFLOW: Code = Code("U0554");
+    pub const NO_FUNCTIONS: Code = Code("U0555");
 
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");
@@ -214,6 +215,7 @@ pub mod codes {
     pub const EMPTY_PROFILE: Code = Code("U0613");
     pub const OLD_PROFILE: Code = Code("U0614");
     pub const EXCLUDED_STATE: Code = Code("U0615");
+    pub const BAD_TUNED: Code = Code("U0616");
 
     // Values given to a table.
     pub const BAD_COLUMN: Code = Code("U0701");

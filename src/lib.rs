@@ -46,4 +46,9 @@ pub mod program;
 #[cfg(feature = "render")]
 pub mod shadow;
 pub mod show;
+#[cfg(feature = "precise")]
+pub mod stabilise;
 pub mod table;
+#[cfg(feature = "gpu")]
+pub mod tune;
+pub mod tuned;

@@ -40,7 +40,7 @@ pub use mutate::{Mistake, Tally, survey};
 pub use numbers::{Range, ranges};
 pub use overlap::{Overlap, overlaps};
 #[cfg(feature = "precise")]
-pub use singular::{Singularity, singularities};
+pub use singular::{Singularity, domain_points, singularities};
 pub use violations::{Violation, admissible, violations, violations_under};
 
 /// Analyses that look at a program as it is written.

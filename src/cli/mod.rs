@@ -21,6 +21,9 @@ mod levels;
 mod output;
 mod profile;
 mod report;
+mod stabilise;
+#[cfg(feature = "gpu")]
+mod tune;
 
 use std::io;
 use std::process::ExitCode;
@@ -67,6 +70,11 @@ enum Command {
     Explain(explain::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Rewrite formulas that divide by zero or lose their digits
+    Stabilise(stabilise::Arguments),
+    /// Measure every plan of a table on this device, and keep the best
+    #[cfg(feature = "gpu")]
+    Tune(tune::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -142,6 +150,9 @@ pub fn main() -> ExitCode {
         Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Tune(arguments) => tune::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,

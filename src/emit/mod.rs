@@ -13,6 +13,7 @@ mod module;
 mod names;
 mod rust;
 mod text;
+pub mod timed;
 mod validate;
 mod wgsl;
 

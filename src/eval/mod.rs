@@ -22,5 +22,7 @@ pub use batch::{Batch, Missing};
 pub use columns::{ABSENT, Column, ColumnError, Columns, Path, Results};
 pub use interval::Interval;
 #[cfg(feature = "precise")]
+pub(crate) use precise::NOTHING;
+#[cfg(feature = "precise")]
 pub use precise::{Precise, Unknown};
 pub use scalar::{Interpreter, NeedsFetch, Outcome};

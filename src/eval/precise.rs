@@ -4,8 +4,8 @@
 //! numbers of a multi-precision library. It can also stand *beside* a point:
 //! every continuous input is moved by a different multiple of 2^-[`SHIFT`], and
 //! every constant zero too, since a divisor such as `1 - s` has become one
-//! where a table passes `s = 1`. The numbers have more than twice as many
-//! bits, so a quotient of two vanishing terms keeps its leading digits, and
+//! where a table passes `s = 1`. The numbers have five times as many
+//! bits, so that a quotient of two vanishing terms keeps its leading digits, and
 //! what comes out is the limit that a formula with a removable singularity
 //! leaves to the reader. If two such steps in different directions disagree,
 //! there is no limit.
@@ -19,13 +19,16 @@ use crate::program::{
 };
 
 /// Bits of every number.
-const BITS: usize = 320;
+const BITS: usize = 384;
 
 /// A step beside a point is a multiple of 2^-SHIFT.
-const SHIFT: u32 = 110;
+const SHIFT: u32 = 72;
 
-/// Two steps agree if they differ by no more than this, relative to the larger of value and 1e-30.
+/// Two steps agree if they differ by no more than this, relative to the value.
 const AGREE: f64 = 1e-14;
+
+/// Or if they differ by no more than this: as far as the steps themselves can move a value that is zero.
+pub(crate) const NOTHING: f64 = 1e-18;
 
 /// Nothing needs directed rounding: the spare bits are many.
 const ROUND: RoundingMode = RoundingMode::None;
@@ -71,12 +74,16 @@ impl<'p> Precise<'p> {
     /// # Errors
     /// If there is none, or if an input is needed but absent.
     pub fn limit(&mut self, point: &[Option<Value>]) -> Result<Vec<f64>, Unknown> {
+        let here = self.value(point)?;
+        if here.iter().all(|v| v.is_finite()) {
+            return Ok(here);
+        }
         self.place(point, Some(1));
         let one = self.evaluate()?;
         self.place(point, Some(-1));
         let other = self.evaluate()?;
         let agree = |(a, b): (&f64, &f64)| {
-            a.is_finite() && b.is_finite() && (a - b).abs() <= AGREE * a.abs().max(b.abs()).max(1e-30)
+            a.is_finite() && b.is_finite() && (a - b).abs() <= (AGREE * a.abs().max(b.abs())).max(NOTHING)
         };
         if one.iter().zip(&other).all(agree) { Ok(one) } else { Err(Unknown::NoLimit) }
     }

@@ -119,9 +119,19 @@ impl Gpu {
         Ok(Self { device, queue, info, trouble })
     }
 
+    /// The adapter's name.
+    pub fn name(&self) -> &str {
+        &self.info.name
+    }
+
     /// The adapter in words: name, kind, driver.
     pub fn describe(&self) -> String {
         describe(&self.info)
+    }
+
+    /// Whether the adapter is a software rasteriser.
+    pub fn is_software(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
     }
 
     /// Waits for the device, then shows what a mappable buffer holds.

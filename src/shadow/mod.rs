@@ -18,8 +18,13 @@ mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod inputs;
+pub mod passes;
 mod probe;
+pub mod reference;
+pub mod scene;
+pub mod shade;
 mod technique;
+pub mod trace;
 pub mod view;
 
 pub use frame::{
@@ -27,3 +32,6 @@ pub use frame::{
 };
 pub use inputs::Vocabulary;
 pub use technique::Technique;
+
+#[cfg(test)]
+mod tests;

@@ -28,6 +28,7 @@ use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
 use crate::program::{BinaryOp, CondId, ExprId, InputId, Node, Program, UnaryOp, Value};
 use crate::show::{Precision, sentence};
+pub use points::inside as domain_points;
 use trace::Trace;
 use zeros::{Zero, zeros};
 

@@ -12,7 +12,7 @@ const CORNERS: usize = 256;
 const MODEST: f64 = 8.0;
 
 /// Points inside the domain, spread evenly; wide ranges are sampled where people work, near zero.
-pub(super) fn inside(program: &Program, count: usize) -> Vec<Vec<Value>> {
+pub fn inside(program: &Program, count: usize) -> Vec<Vec<Value>> {
     (0..count)
         .map(|i| {
             let values = program.inputs.iter().enumerate().map(|(place, input)| {

@@ -10,12 +10,15 @@
 //! every pixel alike: depth tests and steps of walks are exact in `f32`, so that
 //! the case is the same and only divisions may round otherwise.
 
+pub mod bench;
 mod frame;
+mod raster;
 mod shader;
 mod source;
 
 pub use frame::GpuFrame;
-pub use shader::{Costs, Shader};
+pub use raster::{GpuPicture, Raster};
+pub use shader::{Bound, Costs, Shader};
 pub use source::{Output, Reads, Skeleton, source};
 
 use crate::diag::Failure;

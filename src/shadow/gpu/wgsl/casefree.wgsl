@@ -8,9 +8,9 @@ const ISOLATED_ENDS: bool = true;
 
 // How far along an axis the fragment is from the positive end, relative to the
 // run: 0 without a positive end, negative with two of them.
-fn along_axis(ends: vec2<i32>, t: f32) -> f32 {
+fn along_axis(steps: vec2<i32>, t: f32) -> f32 {
     // A walk without an end counts as one that lost its edge just past the limit.
-    let found = select(ends, vec2<i32>(-frame.limit - 1), ends == vec2<i32>(0));
+    let found = select(steps, vec2<i32>(-frame.limit - 1), steps == vec2<i32>(0));
     let length = f32(min(abs(found.x) + abs(found.y) - 1, frame.limit));
     let away = distances(found, t);
     if (found.x < 0 && found.y < 0) {
@@ -31,8 +31,8 @@ fn revectorise(at: Centre) -> Sample {
     if (e.H == BOTH && e.V == BOTH) {
         return Sample(1.0 - plain, NO_TABLE, NO_TABLE);
     }
-    let rx = along_axis(ends(e.c, row(e)), at.place.x);
-    let ry = along_axis(ends(e.c, column(e)), at.place.y);
+    let rx = along_axis(ends(e.c, row(e)).steps, at.place.x);
+    let ry = along_axis(ends(e.c, column(e)).steps, at.place.y);
     var value = plain;
     if (rx * ry < 0.0) {
         value = select(1.0 - max(rx, ry), max(rx, ry), e.c.lit);

@@ -1,25 +1,20 @@
-// Dominance at corners.
+// Dominance at corners: whether the horizontal, and whether the vertical
+// discontinuity dominates.
 
-struct Dominance {
-    H: bool,
-    V: bool,
-}
-
-// The horizontal discontinuity dominates where the neighbour opposite to the
-// vertical one has it, too; and the other way round.
-fn dominance(e: Edge) -> Dominance {
-    if (!is_corner(e)) {
-        return Dominance(false, false);
+// A discontinuity dominates where the neighbour opposite to the other one has it, too.
+fn dominance(e: Edge) -> vec2<bool> {
+    if (!is_corner(e.H, e.V)) {
+        return vec2<bool>(false);
     }
     if (!READ_DOMINANCE) {
         // Both: the table then takes the minimum or maximum over the two runs, which
         // on every map is the same value (a run without dominance has length 1).
-        return Dominance(true, true);
+        return vec2<bool>(true);
     }
-    let behind_H = vec2<i32>(select(1, -1, e.H == RIGHT), 0);
-    let behind_V = vec2<i32>(0, select(-1, 1, e.V == TOP));
-    return Dominance(
-        opposite(e.c, behind_V + vec2<i32>(1, 0)) || opposite(e.c, behind_V + vec2<i32>(-1, 0)),
-        opposite(e.c, behind_H + vec2<i32>(0, 1)) || opposite(e.c, behind_H + vec2<i32>(0, -1)),
+    let x = select(1, -1, e.H == RIGHT);
+    let y = select(-1, 1, e.V == TOP);
+    return vec2<bool>(
+        corner_opposite(e, vec2<i32>(1, y)) || corner_opposite(e, vec2<i32>(-1, y)),
+        corner_opposite(e, vec2<i32>(x, 1)) || corner_opposite(e, vec2<i32>(x, -1)),
     );
 }

@@ -20,6 +20,9 @@ struct Edge {
     c: Centre,
     H: u32,
     V: u32,
+    // Which of upper left, upper right, lower left and lower right texel are
+    // opposite; only where they were needed.
+    corners: vec4<bool>,
 }
 
 // An axis of the map, seen from an edge: the run goes along it, and the sides
@@ -27,9 +30,20 @@ struct Edge {
 struct Axis {
     along: vec2<i32>,
     across: vec2<i32>,
-    // Whether the sides towards smaller and larger coordinates are opposite.
-    before: bool,
-    after: bool,
+    // The levels of the sides towards smaller and larger coordinates, zero where they are not opposite.
+    before: u32,
+    after: u32,
+}
+
+// The ends of a run.
+struct Ends {
+    // The number of steps towards smaller and larger coordinates: positive where
+    // an opposite texel ends the run, negative where the edge is lost, zero where
+    // there is no end within the limit.
+    steps: vec2<i32>,
+    // Of an edge with two sides, where it first does not have both: four times
+    // the steps, and the level of the sides that are left; zero if that is nowhere.
+    breaks: vec2<u32>,
 }
 
 struct Run {
@@ -38,52 +52,53 @@ struct Run {
     position: f32,
     // Whether an end was not found, or the run is longer than the limit.
     endless: bool,
+    breaks: vec2<u32>,
+}
+
+// The runs of an edge along rows and columns.
+struct Runs {
+    horizontal: Run,
+    vertical: Run,
 }
 
 // The row through an edge: its run goes left and right.
 fn row(e: Edge) -> Axis {
-    return Axis(vec2<i32>(1, 0), vec2<i32>(0, 1), (e.V & TOP) != 0u, (e.V & BOTTOM) != 0u);
+    return Axis(vec2<i32>(1, 0), vec2<i32>(0, 1), e.V & TOP, e.V & BOTTOM);
 }
 
 // The column through an edge: its run goes up and down.
 fn column(e: Edge) -> Axis {
-    return Axis(vec2<i32>(0, 1), vec2<i32>(1, 0), (e.H & LEFT) != 0u, (e.H & RIGHT) != 0u);
+    return Axis(vec2<i32>(0, 1), vec2<i32>(1, 0), e.H & LEFT, e.H & RIGHT);
 }
 
-fn is_corner(e: Edge) -> bool {
-    return (e.H == LEFT || e.H == RIGHT) && (e.V == TOP || e.V == BOTTOM);
-}
-
-// Whether the ends of a run (the steps to each with its sign, zero if there is
-// none within the limit) make it longer than the limit.
-fn endless(ends: vec2<i32>) -> bool {
-    return ends.x == 0 || ends.y == 0 || abs(ends.x) + abs(ends.y) - 1 > frame.limit;
+fn is_corner(H: u32, V: u32) -> bool {
+    return (H == LEFT || H == RIGHT) && (V == TOP || V == BOTTOM);
 }
 
 // From a place in the texel to the borders of both end texels.
-fn distances(ends: vec2<i32>, t: f32) -> vec2<f32> {
-    return vec2<f32>(f32(abs(ends.x) - 1) + t, f32(abs(ends.y)) - t);
-}
-
-// The run along an axis; `t` is the place in the texel along it.
-fn run(c: Centre, axis: Axis, t: f32) -> Run {
-    let found = ends(c, axis);
-    if (endless(found)) {
-        return Run(POSITIVE_NEGATIVE, 0.0, true);
-    }
-    if (found.x < 0 && found.y < 0) {
-        return Run(DUAL_NEGATIVE, 0.0, false);
-    }
-    let length = f32(abs(found.x) + abs(found.y) - 1);
-    let away = distances(found, t);
-    if (found.x > 0 && found.y > 0) {
-        return Run(DUAL_POSITIVE, clamp(1.5 - max(away.x, away.y) / length, 0.0, 1.0), false);
-    }
-    let positive = select(away.y, away.x, found.x > 0);
-    return Run(POSITIVE_NEGATIVE, clamp(1.0 - positive / length, 0.0, 1.0), false);
+fn distances(steps: vec2<i32>, t: f32) -> vec2<f32> {
+    return vec2<f32>(f32(abs(steps.x) - 1) + t, f32(abs(steps.y)) - t);
 }
 
 // A run that is not walked.
 fn no_run() -> Run {
-    return Run(POSITIVE_NEGATIVE, 0.0, false);
+    return Run(POSITIVE_NEGATIVE, 0.0, false, vec2<u32>(0u));
+}
+
+// Type and position of a run; `t` is the place in the texel along it.
+fn measured(ends: Ends, t: f32) -> Run {
+    let steps = ends.steps;
+    let length = abs(steps.x) + abs(steps.y) - 1;
+    if (steps.x == 0 || steps.y == 0 || length > frame.limit) {
+        return Run(POSITIVE_NEGATIVE, 0.0, true, ends.breaks);
+    }
+    if (steps.x < 0 && steps.y < 0) {
+        return Run(DUAL_NEGATIVE, 0.0, false, ends.breaks);
+    }
+    let away = distances(steps, t);
+    if (steps.x > 0 && steps.y > 0) {
+        return Run(DUAL_POSITIVE, clamp(1.5 - max(away.x, away.y) / f32(length), 0.0, 1.0), false, ends.breaks);
+    }
+    let positive = select(away.y, away.x, steps.x > 0);
+    return Run(POSITIVE_NEGATIVE, clamp(1.0 - positive / f32(length), 0.0, 1.0), false, ends.breaks);
 }

@@ -86,10 +86,12 @@ fn opposite(c: Centre, offset: vec2<i32>) -> bool {
     return (plane(c.z, c.slope, offset) <= depth(c.texel + offset)) != c.lit;
 }
 
-// Whether an opposite texel stands alone: its four neighbours are like the centre.
+// Whether a texel that is opposite stands alone: its four neighbours are of the other state.
 fn isolated(c: Centre, offset: vec2<i32>) -> bool {
-    return !opposite(c, offset + vec2<i32>(1, 0)) && !opposite(c, offset + vec2<i32>(-1, 0))
-        && !opposite(c, offset + vec2<i32>(0, 1)) && !opposite(c, offset + vec2<i32>(0, -1));
+    // A walk that lifts its receiver may find a texel opposite that is not without the lift.
+    let own = frame.walk_bias == 0.0 || opposite(c, offset);
+    return opposite(c, offset + vec2<i32>(1, 0)) != own && opposite(c, offset + vec2<i32>(-1, 0)) != own
+        && opposite(c, offset + vec2<i32>(0, 1)) != own && opposite(c, offset + vec2<i32>(0, -1)) != own;
 }
 
 // The centre without its depth test.

@@ -4,106 +4,108 @@ const LIT_ONLY: bool = false;
 // A texel that stands alone is no silhouette.
 const ISOLATED_SIDES: bool = true;
 const ISOLATED_ENDS: bool = true;
+const NEEDS_NEIGHBOURS: bool = true;
 
 fn revectorise(at: Centre) -> Sample {
     let e = look(at);
+    let plain = Sample(f32(e.c.lit), NO_TABLE, NO_TABLE);
     if (e.H == NONE && e.V == NONE) {
-        return Sample(f32(e.c.lit), NO_TABLE, NO_TABLE);
+        return plain;
     }
-    var horizontal = no_run();
-    var vertical = no_run();
-    if (e.V != NONE) {
-        horizontal = run(e.c, row(e), at.place.x);
+    let found = runs(e, at.place);
+    if (found.horizontal.endless || found.vertical.endless) {
+        return plain;
     }
-    if (e.H != NONE) {
-        vertical = run(e.c, column(e), at.place.y);
+    var site = RsmssSite(e, found.horizontal.breaks);
+    if (e.H == BOTH) {
+        site.breaks = found.vertical.breaks;
     }
-    if (horizontal.endless || vertical.endless) {
-        return Sample(f32(e.c.lit), NO_TABLE, NO_TABLE);
+    if ((e.H == BOTH) != (e.V == BOTH) && (!WALKS_BREAK || frame.walk_bias > 0.0)) {
+        site.breaks = searched_breaks(e);
     }
     let dom = dominance(e);
     let b = select(1u, 0u, e.c.lit);
-    let key = table_key(e.H, e.V, b, horizontal.kind, vertical.kind, dom.H, dom.V);
-    let site = RsmssSite(e.c, e.H, e.V);
-    let result = rsmss_key_case(key, horizontal.position, vertical.position, at.place.x, at.place.y, site);
+    let key = table_key(e.H, e.V, b, found.horizontal.kind, found.vertical.kind, dom.x, dom.y);
+    let result = rsmss_key_case(key, found.horizontal.position, found.vertical.position, at.place.x, at.place.y, site);
     return Sample(result.value, result.case_id, key);
 }
 
-// What a fetch needs to know: the edge.
+// What a fetch needs to know.
 struct RsmssSite {
-    c: Centre,
-    H: u32,
-    V: u32,
-}
-
-// The sides of a texel across a direction that are opposite to the centre, as a
-// level of H or V: `first` is the side of level 1, right or top.
-fn sides_at(c: Centre, offset: vec2<i32>, first: vec2<i32>) -> u32 {
-    return u32(opposite(c, offset + first)) + 2u * u32(opposite(c, offset - first));
+    edge: Edge,
+    // As in Ends, of the run between two sides: the walk passed there and needs no second search.
+    breaks: vec2<u32>,
 }
 
 const TO_RIGHT: vec2<i32> = vec2<i32>(1, 0);
 const TO_TOP: vec2<i32> = vec2<i32>(0, -1);
 
-fn rsmss_fetch_n_top(site: RsmssSite) -> u32 { return sides_at(site.c, TO_TOP, TO_RIGHT); }
-fn rsmss_fetch_n_bottom(site: RsmssSite) -> u32 { return sides_at(site.c, -TO_TOP, TO_RIGHT); }
-fn rsmss_fetch_n_left(site: RsmssSite) -> u32 { return sides_at(site.c, -TO_RIGHT, TO_TOP); }
-fn rsmss_fetch_n_right(site: RsmssSite) -> u32 { return sides_at(site.c, TO_RIGHT, TO_TOP); }
-
-// Where an edge with two sides stops having both of them.
-struct Break {
-    distance: i32,
-    // The sides that are left; both where the run ended without a break.
-    level: u32,
+// The sides of a neighbour that are opposite to the edge's texel: `first` is the side of level 1, right or top.
+fn neighbour(e: Edge, offset: vec2<i32>, first: vec2<i32>) -> u32 {
+    return u32(corner_opposite(e, offset + first)) + 2u * u32(corner_opposite(e, offset - first));
 }
 
-fn break_towards(c: Centre, direction: vec2<i32>, first: vec2<i32>) -> Break {
-    for (var k = 1; k <= frame.limit; k++) {
-        count_step();
-        let here = direction * k;
-        if (opposite(c, here) && !isolated(c, here)) {
-            return Break(frame.limit + 2, BOTH);
+fn rsmss_fetch_n_top(site: RsmssSite) -> u32 { return neighbour(site.edge, TO_TOP, TO_RIGHT); }
+fn rsmss_fetch_n_bottom(site: RsmssSite) -> u32 { return neighbour(site.edge, -TO_TOP, TO_RIGHT); }
+fn rsmss_fetch_n_left(site: RsmssSite) -> u32 { return neighbour(site.edge, -TO_RIGHT, TO_TOP); }
+fn rsmss_fetch_n_right(site: RsmssSite) -> u32 { return neighbour(site.edge, TO_RIGHT, TO_TOP); }
+
+// Breaks by a search of their own, in both directions: for walks that do not
+// note them, or that go another way because they lift the receiver.
+fn searched_breaks(e: Edge) -> vec2<u32> {
+    let upright = e.H == BOTH;
+    let along = select(TO_RIGHT, -TO_TOP, upright);
+    let first = select(TO_TOP, TO_RIGHT, upright);
+    var found = vec2<u32>(0u);
+    for (var direction = -1; direction <= 1; direction += 2) {
+        var break_at = 0u;
+        for (var k = 1; k <= frame.limit + 1 && break_at == 0u; k++) {
+            count_step();
+            let here = along * (direction * k);
+            if (opposite(e.c, here) && !isolated(e.c, here)) {
+                break;
+            }
+            let sides = u32(opposite(e.c, here + first)) + 2u * u32(opposite(e.c, here - first));
+            if (k > frame.limit) {
+                break_at = 4u * u32(k) + NONE;
+            } else if (sides != BOTH) {
+                break_at = 4u * u32(k) + sides;
+            }
         }
-        let sides = sides_at(c, here, first);
-        if (sides != BOTH) {
-            return Break(k, sides);
+        if (direction < 0) {
+            found.x = break_at;
+        } else {
+            found.y = break_at;
         }
     }
-    return Break(frame.limit + 1, NONE);
+    return found;
 }
 
-// Of the breaks in both directions the nearer one; of equally near ones the sides that both have left.
-fn nearer_break(c: Centre, direction: vec2<i32>, first: vec2<i32>) -> u32 {
-    let one = break_towards(c, direction, first);
-    let other = break_towards(c, -direction, first);
-    if (one.distance == other.distance) {
-        return one.level & other.level;
-    }
-    return select(other.level, one.level, one.distance < other.distance);
+// The level of a break; both where there is none.
+fn break_level(break_at: u32) -> u32 {
+    return select(break_at & 3u, BOTH, break_at == 0u);
 }
 
-// The break in one direction, if the other one is not nearer.
-fn first_break(c: Centre, direction: vec2<i32>, first: vec2<i32>) -> u32 {
-    let one = break_towards(c, direction, first);
-    let other = break_towards(c, -direction, first);
-    return select(BOTH, one.level, one.distance <= other.distance);
+// A break, if that in the other direction is not nearer.
+fn nearer_break(here: u32, there: u32) -> u32 {
+    return select(BOTH, break_level(here), there == 0u || (here >> 2u) <= (there >> 2u));
 }
 
-fn rsmss_fetch_d_cb_h(site: RsmssSite) -> u32 {
-    switch (site.V) {
-        case TOP: { return break_towards(site.c, -TO_TOP, TO_RIGHT).level; }
-        case BOTTOM: { return break_towards(site.c, TO_TOP, TO_RIGHT).level; }
-        default: { return nearer_break(site.c, TO_TOP, TO_RIGHT); }
+// Away from a one-sided discontinuity, else the nearest break; of equally near ones the sides that both have left.
+fn deciding_break(site: RsmssSite, across: u32, small: u32, large: u32) -> u32 {
+    let found = site.breaks;
+    if (across == small) {
+        return break_level(found.y);
     }
-}
-fn rsmss_fetch_d_cb_v(site: RsmssSite) -> u32 {
-    switch (site.H) {
-        case RIGHT: { return break_towards(site.c, -TO_RIGHT, TO_TOP).level; }
-        case LEFT: { return break_towards(site.c, TO_RIGHT, TO_TOP).level; }
-        default: { return nearer_break(site.c, TO_RIGHT, TO_TOP); }
+    if (across == large) {
+        return break_level(found.x);
     }
+    return nearer_break(found.x, found.y) & nearer_break(found.y, found.x);
 }
-fn rsmss_fetch_d_cb_top(site: RsmssSite) -> u32 { return first_break(site.c, TO_TOP, TO_RIGHT); }
-fn rsmss_fetch_d_cb_bottom(site: RsmssSite) -> u32 { return first_break(site.c, -TO_TOP, TO_RIGHT); }
-fn rsmss_fetch_d_cb_left(site: RsmssSite) -> u32 { return first_break(site.c, -TO_RIGHT, TO_TOP); }
-fn rsmss_fetch_d_cb_right(site: RsmssSite) -> u32 { return first_break(site.c, TO_RIGHT, TO_TOP); }
+
+fn rsmss_fetch_d_cb_h(site: RsmssSite) -> u32 { return deciding_break(site, site.edge.V, TOP, BOTTOM); }
+fn rsmss_fetch_d_cb_v(site: RsmssSite) -> u32 { return deciding_break(site, site.edge.H, LEFT, RIGHT); }
+fn rsmss_fetch_d_cb_top(site: RsmssSite) -> u32 { return nearer_break(site.breaks.x, site.breaks.y); }
+fn rsmss_fetch_d_cb_bottom(site: RsmssSite) -> u32 { return nearer_break(site.breaks.y, site.breaks.x); }
+fn rsmss_fetch_d_cb_left(site: RsmssSite) -> u32 { return nearer_break(site.breaks.x, site.breaks.y); }
+fn rsmss_fetch_d_cb_right(site: RsmssSite) -> u32 { return nearer_break(site.breaks.y, site.breaks.x); }

@@ -1,0 +1,154 @@
+//! What a formula reaches in `f32`, measured against hundreds of bits.
+//!
+//! The reference is the *original* formula, evaluated beside each point so that
+//! its removable singularities have their limits ([`Precise::limit`]); nothing
+//! about the rewriting is trusted. Points are spread over the domain, and on and
+//! around every singularity that the analysis finds in the original.
+
+use crate::analyse::{domain_points, singularities};
+use crate::diag::Failure;
+use crate::eval::{Interpreter, NOTHING, Precise};
+use crate::program::{Domain, Program, Value};
+
+/// Points spread over the domain, for each function.
+const SPREAD: usize = 120;
+
+/// Distances from a singularity at which a function is tried.
+const DISTANCES: [f64; 7] = [0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+
+/// Half a unit in the last place of 1 in `f32`.
+const UNIT: f64 = 1.0 / 16_777_216.0;
+
+/// The accuracy of one form of a function over its domain.
+#[derive(Debug, Clone, Default)]
+pub struct Measured {
+    /// Points without a finite result.
+    pub not_finite: usize,
+    /// Largest error, absolute, where the result is finite.
+    pub error: f64,
+    /// Largest error in units of what the inputs' rounding can change, plus half a unit in the last place.
+    pub units: f64,
+}
+
+/// The accuracy of a function before and after.
+#[derive(Debug, Clone)]
+pub struct Certificate {
+    /// The function.
+    pub name: String,
+    /// Points with a limit, at which both were measured.
+    pub points: usize,
+    /// Points without one, left out.
+    pub left_out: usize,
+    /// The original.
+    pub before: Measured,
+    /// The new form.
+    pub after: Measured,
+}
+
+impl super::Stabilised {
+    /// Measures every function of the new table against the old one.
+    ///
+    /// # Errors
+    /// If a table cannot be lowered.
+    pub fn certify(&self, old: &crate::table::Table) -> Result<Vec<Certificate>, Failure> {
+        let source = crate::diag::Source::new(old.source.name.clone(), self.text.clone());
+        let new = Program::check_all(&crate::table::Table::parse(source)?)?;
+        let old = Program::check_all(old)?;
+        Ok(old.iter().zip(&new).filter_map(|(old, new)| certificate(old, new)).collect())
+    }
+}
+
+/// Points spread over the domain and around the singularities of a program.
+fn points(program: &Program) -> Vec<Vec<Value>> {
+    let inside = |input: usize, value: f64| match program.inputs[input].domain {
+        Domain::Continuous { lo, hi, .. } => (lo..=hi).contains(&value),
+        Domain::Discrete(_) => false,
+    };
+    let mut all = domain_points(program, SPREAD);
+    for singularity in singularities(program) {
+        // The singular input is moved; which one of several does not matter.
+        let fixed = singularity.fixed.map(|(input, _)| input.index());
+        let Some(input) =
+            fixed.or_else(|| program.pool.expr_facts(singularity.divisor).inputs.iter().next().map(|i| i.index()))
+        else {
+            all.push(singularity.point);
+            continue;
+        };
+        let Value::Number(centre) = singularity.point[input] else { continue };
+        // Around two points of the singular set: the one found, and one with other values elsewhere.
+        for base in [singularity.point.clone(), domain_points(program, 3).pop().unwrap_or_default()] {
+            for distance in DISTANCES.into_iter().flat_map(|d| [d, -d]) {
+                let value = f64::from((centre + distance) as f32);
+                if inside(input, value) && base.len() > input {
+                    let mut point = base.clone();
+                    point[input] = Value::Number(value);
+                    all.push(point);
+                }
+            }
+        }
+    }
+    let assumed = |point: &Vec<Value>| {
+        let given: Vec<Option<Value>> = point.iter().copied().map(Some).collect();
+        let mut interpreter = Interpreter::<f64>::new(program);
+        interpreter.place(&given).is_ok()
+            && program.assumptions.iter().all(|a| interpreter.holds(a.condition).unwrap_or(false))
+    };
+    all.retain(assumed);
+    all
+}
+
+fn certificate(old: &Program, new: &Program) -> Option<Certificate> {
+    let mut judge = Precise::new(old)?;
+    let (mut before, mut after) = (Measured::default(), Measured::default());
+    let (mut count, mut left_out) = (0, 0);
+    for point in points(old) {
+        let given: Vec<Option<Value>> = point.iter().copied().map(Some).collect();
+        let Ok(exact) = judge.limit(&given) else {
+            left_out += 1;
+            continue;
+        };
+        count += 1;
+        let allowed = allowed(old, &mut judge, &point, &exact);
+        for (program, measured) in [(old, &mut before), (new, &mut after)] {
+            let mut interpreter = Interpreter::<f32>::new(program);
+            let Ok(outcome) = interpreter.evaluate(&given) else { continue };
+            for ((got, exact), allowed) in outcome.values.iter().zip(&exact).zip(&allowed) {
+                if got.is_finite() {
+                    // The limit at a singular point is known no better than this.
+                    let error = ((f64::from(*got) - exact).abs() - NOTHING).max(0.0);
+                    measured.error = measured.error.max(error);
+                    measured.units = measured.units.max(error / allowed);
+                } else {
+                    measured.not_finite += 1;
+                }
+            }
+        }
+    }
+    let name = old.function.as_ref().map_or_else(|| old.name.clone(), |function| function.name.clone());
+    Some(Certificate { name, points: count, left_out, before, after })
+}
+
+/// What half a unit in the last place of each input can change, summed, and half a unit of the scale:
+/// the declared one, or else the value.
+fn allowed(program: &Program, judge: &mut Precise<'_>, point: &[Value], exact: &[f64]) -> Vec<f64> {
+    let scale = program.function.as_ref().and_then(|function| function.accuracy.as_ref()).and_then(|accuracy| {
+        let scale = judge.expression(accuracy.scale).ok()?;
+        scale.is_finite().then_some(scale.abs())
+    });
+    let mut allowed: Vec<f64> = exact.iter().map(|exact| UNIT * scale.unwrap_or(exact.abs())).collect();
+    let mut given: Vec<Option<Value>> = point.iter().copied().map(Some).collect();
+    for (input, value) in point.iter().enumerate() {
+        let Value::Number(number) = *value else { continue };
+        let half = 0.5 * (f64::from((number as f32).abs().next_up()) - f64::from((number as f32).abs()));
+        given[input] = Some(Value::Number(number + half));
+        if let Ok(moved) = judge.limit(&given) {
+            for ((allowed, moved), exact) in allowed.iter_mut().zip(&moved).zip(exact) {
+                *allowed += (moved - exact).abs();
+            }
+        }
+        given[input] = Some(*value);
+    }
+    // A quantity that is zero everywhere may be off by the smallest normal number.
+    allowed.iter_mut().for_each(|allowed| *allowed = allowed.max(f64::from(f32::MIN_POSITIVE)));
+    allowed
+}

@@ -1,0 +1,251 @@
+//! The value of a function as a sum of products: names, calls and bindings
+//! replaced by what they stand for.
+//!
+//! `F | x = lo .. hi` is where rewriting happens; see [`super::between`].
+
+use std::collections::BTreeMap;
+
+use super::between::between;
+use super::poly::{Atom, Poly};
+use crate::program::normal::rational;
+use crate::table::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
+use crate::table::{ConstantValue, Function, FunctionBody, Table};
+
+/// Deepest nesting of calls that are written out.
+const MAX_DEPTH: usize = 64;
+
+/// What names mean.
+pub(super) type Env = BTreeMap<String, Poly>;
+
+/// A pair of bounds: `mid` and `half` are names of the mean and of half the difference.
+#[derive(Debug, Clone)]
+pub(super) struct Bounds {
+    pub(super) lo: Poly,
+    pub(super) hi: Poly,
+    pub(super) mid: String,
+    pub(super) half: String,
+}
+
+/// Reads values of one table; errors say what cannot be rewritten.
+pub(super) struct Reader<'t> {
+    table: &'t Table,
+    /// The bounds met so far.
+    pub(super) bounds: Vec<Bounds>,
+    /// Whether the function itself, and not only what it calls, divides by more than a number or takes a
+    /// difference between bounds.
+    pub(super) singular: bool,
+    depth: usize,
+    /// How many calls of functions lead here.
+    calls: usize,
+}
+
+type Result<T> = std::result::Result<T, String>;
+
+/// The sum became too large, or is divided by zero at every point.
+fn too_large() -> String {
+    "it becomes too large, or divides by zero at every point".to_owned()
+}
+
+impl<'t> Reader<'t> {
+    pub(super) fn new(table: &'t Table) -> Self {
+        Self { table, bounds: Vec::new(), singular: false, depth: 0, calls: 0 }
+    }
+
+    /// The value of a function in terms of its parameters.
+    pub(super) fn function(&mut self, function: &Function) -> Result<Poly> {
+        let env = function.parameters.iter().map(|p| (p.value.clone(), Poly::var(&p.value))).collect();
+        self.body(function, env)
+    }
+
+    fn body(&mut self, function: &Function, mut env: Env) -> Result<Poly> {
+        let FunctionBody::Value(value) = &function.body else {
+            return Err(format!("`{}` has cases", function.name.value));
+        };
+        for binding in &function.bindings {
+            let value = self.expr(&binding.value, &env)?;
+            env.insert(binding.name.value.clone(), value);
+        }
+        self.expr(value, &env)
+    }
+
+    fn expr(&mut self, expr: &Expr, env: &Env) -> Result<Poly> {
+        if self.depth == MAX_DEPTH {
+            return Err("calls are nested too deep".to_owned());
+        }
+        self.depth += 1;
+        let result = self.node(expr, env);
+        self.depth -= 1;
+        result
+    }
+
+    fn node(&mut self, expr: &Expr, env: &Env) -> Result<Poly> {
+        match &expr.kind {
+            ExprKind::Number(value) => {
+                let exact = rational(*value).ok_or_else(|| format!("{value} is no fraction of moderate size"))?;
+                // The decimal as written, where the double is only the nearest to it.
+                Ok(Poly::number(decimal(*value).unwrap_or(exact)))
+            }
+            ExprKind::Name(name) => self.name(name, env),
+            ExprKind::Unary(UnaryOp::Negate, a) => self.expr(a, env)?.times_number((-1).into()).ok_or_else(too_large),
+            ExprKind::Binary(BinaryOp::Divide, a, b) => {
+                let a = self.expr(a, env)?;
+                self.quotient(a, b, env)
+            }
+            ExprKind::Binary(op, a, b) => {
+                let (a, b) = (self.expr(a, env)?, self.expr(b, env)?);
+                let result = match op {
+                    BinaryOp::Add => a.plus(&b),
+                    BinaryOp::Subtract => a.minus(&b),
+                    BinaryOp::Multiply => a.times(&b),
+                    _ => return Err(format!("`{}` is not arithmetic", op.symbol())),
+                };
+                result.ok_or_else(too_large)
+            }
+            ExprKind::Let(name, value, rest) => {
+                let value = self.expr(value, env)?;
+                let mut inner = env.clone();
+                inner.insert(name.value.clone(), value);
+                self.expr(rest, &inner)
+            }
+            ExprKind::Call(name, arguments) => self.call(&name.value, arguments, env),
+            ExprKind::With(name, set) => {
+                let set = set.iter().map(|(parameter, value)| Ok((parameter.value.clone(), self.expr(value, env)?)));
+                let set: Env = set.collect::<Result<_>>()?;
+                self.function_call(&name.value, env, &set)
+            }
+            ExprKind::Between(body, variable, lo, hi) => {
+                let (lo, hi) = (self.expr(lo, env)?, self.expr(hi, env)?);
+                let mut inner = env.clone();
+                // A name that no table can use, so that it stays apart from what the bounds mention.
+                let free = format!("{}'{}", variable.value, self.depth);
+                inner.insert(variable.value.clone(), Poly::var(&free));
+                let body = self.expr(body, &inner)?;
+                self.singular |= self.calls == 0;
+                let (mid, half) = self.bounds(lo, hi);
+                between(&body, &free, &mid, &half)
+            }
+            ExprKind::If(..) | ExprKind::In(..) | ExprKind::Unary(UnaryOp::Not, _) => {
+                Err("it is a choice, and rules know formulas only".to_owned())
+            }
+            ExprKind::Sum(..)
+            | ExprKind::List(_)
+            | ExprKind::Record(_)
+            | ExprKind::Swizzle(..)
+            | ExprKind::Case(..) => Err("it contains a sum, a list, or several numbers at once".to_owned()),
+        }
+    }
+
+    /// A quotient. Of a divisor that is a product each factor is kept by itself, so that equal ones are seen.
+    fn quotient(&mut self, over: Poly, under: &Expr, env: &Env) -> Result<Poly> {
+        match &under.kind {
+            ExprKind::Binary(BinaryOp::Multiply, a, b) => {
+                let part = self.quotient(over, a, env)?;
+                self.quotient(part, b, env)
+            }
+            ExprKind::Call(name, arguments) if name.value == "pow" && arguments.len() == 2 => {
+                let exponent = self.expr(&arguments[1], env)?.constant().filter(|e| e.is_integer());
+                match exponent.map(|e| e.to_integer()) {
+                    Some(count @ 1..=8) => (0..count).try_fold(over, |part, _| self.quotient(part, &arguments[0], env)),
+                    _ => Err("`pow` with an exponent that is no small number".to_owned()),
+                }
+            }
+            _ => {
+                let under = self.expr(under, env)?;
+                self.singular |= self.calls == 0 && under.constant().is_none();
+                over.over(&under).ok_or_else(too_large)
+            }
+        }
+    }
+
+    fn name(&mut self, name: &str, env: &Env) -> Result<Poly> {
+        if let Some(value) = env.get(name) {
+            return Ok(value.clone());
+        }
+        let table = self.table;
+        if let Some(named) = table.names.iter().find(|named| named.name.value == name) {
+            return self.expr(&named.value, env);
+        }
+        match table.constants.iter().find(|constant| constant.name.value == name).map(|c| &c.value) {
+            Some(ConstantValue::Number(value)) => self.expr(value, env),
+            Some(ConstantValue::List(_)) => Err(format!("`{name}` is a list")),
+            None => Ok(Poly::var(name)),
+        }
+    }
+
+    /// The names of mean and half difference of two bounds.
+    fn bounds(&mut self, lo: Poly, hi: Poly) -> (String, String) {
+        if let Some(known) = self.bounds.iter().find(|known| known.lo == lo && known.hi == hi) {
+            return (known.mid.clone(), known.half.clone());
+        }
+        let taken = |name: &str| {
+            self.table.inputs.iter().any(|i| i.name.value == name)
+                || self.table.names.iter().any(|n| n.name.value == name)
+                || self.table.constants.iter().any(|c| c.name.value == name)
+                || self.bounds.iter().any(|b| b.mid == name || b.half == name)
+        };
+        let free = |names: [&str; 4]| names.into_iter().find(|name| !taken(name)).unwrap_or("between").to_owned();
+        let (mid, half) = (free(["m", "mid", "mean", "centre"]), free(["h", "half", "halved", "reach"]));
+        self.bounds.push(Bounds { lo, hi, mid: mid.clone(), half: half.clone() });
+        (mid, half)
+    }
+
+    fn call(&mut self, name: &str, arguments: &[Expr], env: &Env) -> Result<Poly> {
+        let table = self.table;
+        if let Some(helper) = table.helpers.iter().find(|helper| helper.name.value == name) {
+            let [line] = helper.lines.as_slice() else { return Err(format!("`{name}` has several lines")) };
+            let mut inner = Env::new();
+            for (parameter, argument) in helper.parameters.iter().zip(arguments) {
+                inner.insert(parameter.value.clone(), self.expr(argument, env)?);
+            }
+            return self.expr(&line.value, &inner);
+        }
+        if let Some(function) = table.functions.iter().find(|function| function.name.value == name) {
+            let mut set = Env::new();
+            for (parameter, argument) in function.parameters.iter().zip(arguments) {
+                set.insert(parameter.value.clone(), self.expr(argument, env)?);
+            }
+            return self.function_call(name, env, &set);
+        }
+        let arguments = arguments.iter().map(|a| self.expr(a, env)).collect::<Result<Vec<_>>>()?;
+        match (name, arguments.as_slice()) {
+            ("pow", [base, exponent]) => {
+                let whole = exponent.constant().filter(|e| e.is_integer() && (0..=8).contains(&e.to_integer()));
+                let Some(count) = whole else {
+                    return Err("`pow` with an exponent that is no small number".to_owned());
+                };
+                (0..count.to_integer()).try_fold(Poly::whole(1), |p, _| p.times(base)).ok_or_else(too_large)
+            }
+            _ => Ok(Poly::atom(Atom::Fun(name.to_owned(), arguments))),
+        }
+    }
+
+    /// A function of the table; parameters that are not set mean what they mean here.
+    fn function_call(&mut self, name: &str, env: &Env, set: &Env) -> Result<Poly> {
+        let table = self.table;
+        let Some(function) = table.functions.iter().find(|function| function.name.value == name) else {
+            return Err(format!("`{name}` belongs to another table"));
+        };
+        let mut inner = Env::new();
+        for parameter in &function.parameters {
+            let parameter = &parameter.value;
+            let value = match set.get(parameter).or_else(|| env.get(parameter)) {
+                Some(value) => value.clone(),
+                None => self.name(parameter, env)?,
+            };
+            inner.insert(parameter.clone(), value);
+        }
+        self.calls += 1;
+        let value = self.body(function, inner);
+        self.calls -= 1;
+        value
+    }
+}
+
+/// The decimal that a number is written as, exactly.
+fn decimal(value: f64) -> Option<crate::program::normal::Rational> {
+    let text = value.to_string();
+    let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
+    let digits: i128 = format!("{whole}{fraction}").parse().ok()?;
+    let scale = 10_i128.checked_pow(u32::try_from(fraction.len()).ok()?)?;
+    Some(crate::program::normal::Rational::new(digits, scale))
+}
