@@ -28,8 +28,8 @@ const TABLE: &str = r#"Table(
     output: Number(),
     cases: [
         Case(id: 1, when: "side == left && near", value: "x * 2"),
-        Case(id: 2, when: "far && seen", value: "1 - x"),
         Case(id: 3, is: Image(case: 1, under: "turn")),
+        Case(id: 2, when: "far && seen", value: "1 - x"),
     ],
     default: 0,
 )
