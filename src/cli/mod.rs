@@ -20,10 +20,12 @@ mod json_input;
 mod levels;
 mod output;
 mod profile;
+mod profiled;
 mod report;
 mod stabilise;
 #[cfg(feature = "gpu")]
 mod tune;
+mod why;
 
 use std::io;
 use std::process::ExitCode;
@@ -66,8 +68,10 @@ enum Command {
     Errata(errata::ErrataArguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
-    /// Say which case is taken at one point, why, and how its value comes about
+    /// Say which case is taken at one point, why, and how its value comes about; or what a code means
     Explain(explain::Arguments),
+    /// Say which inputs reach a case, and what lies around them
+    Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
@@ -141,7 +145,7 @@ pub fn main() -> ExitCode {
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
         #[cfg(feature = "report")]
-        Command::Atlas(arguments) => atlas::run(&arguments),
+        Command::Atlas(arguments) => atlas::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
@@ -149,6 +153,7 @@ pub fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]

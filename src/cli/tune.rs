@@ -48,7 +48,11 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().protocol.rounds,
           value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
     rounds: usize,
-    /// How often each row is evaluated in one measurement; more for fast devices
+    /// Rows that a thread evaluates: 1 is a pass over memory, more show what plans cost where inputs are at hand
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().rows_of_thread,
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    rows_of_thread: u32,
+    /// How often all rows are evaluated in one measurement; more for fast devices
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().repeats,
           value_parser = clap::value_parser!(u32).range(1..=10_000))]
     repeats: u32,
@@ -90,7 +94,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let options = Options {
         shapes: if arguments.plan.is_empty() { defaults.shapes } else { arguments.plan.clone() },
         assume: arguments.assume,
-        rows: arguments.rows,
+        rows: arguments.rows.next_multiple_of(arguments.rows_of_thread as usize),
+        rows_of_thread: arguments.rows_of_thread,
         repeats: arguments.repeats,
         protocol: Protocol { rounds: arguments.rounds, ..defaults.protocol },
         wall_clock: arguments.wall_clock,

@@ -268,7 +268,7 @@ fn count_fetch(layout: &Layout, index: usize) -> String {
     format!("{place} = {place} + {}u;", 1_u32 << (4 * (index % COUNTS_PER_WORD)))
 }
 
-pub(super) fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
+fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
     let plain = program.inputs.iter().filter(|input| input.fetched.is_none());
     let word = |index: usize| format!("$plain[at + {index}u]");
     match entry {

@@ -79,27 +79,34 @@ pub struct Timed {
     group_layout: wgpu::BindGroupLayout,
     lookup: Option<wgpu::Buffer>,
     fetches: bool,
+    rows_of_thread: u32,
 }
 
 impl Timed {
-    /// Evaluates a plan at every row.
+    /// Evaluates a plan at every row; a thread does so many of them.
     ///
     /// # Errors
     /// When the source is refused; that would be a bug of the emitter or the driver.
-    pub fn plan(gpu: &Gpu, proved: &Proved<'_>) -> Result<Self, Failure> {
+    pub fn plan(gpu: &Gpu, proved: &Proved<'_>, rows_of_thread: u32) -> Result<Self, Failure> {
         let lookup = reads_lookup(proved).then(|| lookup_words(proved.plan()));
-        Self::new(gpu, proved.plan().program, &wgsl_timed(proved), lookup)
+        Self::new(gpu, proved.plan().program, &wgsl_timed(proved, rows_of_thread), lookup, rows_of_thread)
     }
 
     /// Reads and writes the same data as a plan of this program, and computes nothing.
     ///
     /// # Errors
     /// As [`Self::plan`].
-    pub fn floor(gpu: &Gpu, program: &Program) -> Result<Self, Failure> {
-        Self::new(gpu, program, &wgsl_floor(program), None)
+    pub fn floor(gpu: &Gpu, program: &Program, rows_of_thread: u32) -> Result<Self, Failure> {
+        Self::new(gpu, program, &wgsl_floor(program, rows_of_thread), None, rows_of_thread)
     }
 
-    fn new(gpu: &Gpu, program: &Program, source: &str, lookup: Option<Vec<u32>>) -> Result<Self, Failure> {
+    fn new(
+        gpu: &Gpu,
+        program: &Program,
+        source: &str,
+        lookup: Option<Vec<u32>>,
+        rows_of_thread: u32,
+    ) -> Result<Self, Failure> {
         let module = wgsl_module(program, source)?;
         let shader = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some(&program.name),
@@ -132,7 +139,7 @@ impl Timed {
             })
         });
         gpu.check()?;
-        Ok(Self { pipeline, group_layout, lookup, fetches })
+        Ok(Self { pipeline, group_layout, lookup, fetches, rows_of_thread })
     }
 
     /// Goes over a workload `repeats` times in one pass and returns the time of one of them.
@@ -158,7 +165,7 @@ impl Timed {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &group, &[]);
             for _ in 0..repeats {
-                pass.dispatch_workgroups(load.rows.div_ceil(WORKGROUP), 1, 1);
+                pass.dispatch_workgroups((load.rows / self.rows_of_thread).div_ceil(WORKGROUP), 1, 1);
             }
         })?;
         gpu.check()?;

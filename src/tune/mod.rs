@@ -40,7 +40,10 @@ pub struct Options {
     pub assume: bool,
     /// Rows of inputs of each kind.
     pub rows: usize,
-    /// How often each row is evaluated in one measurement.
+    /// Rows that a thread evaluates; of the first it reads all inputs, of the others the key. 1 is a pass over
+    /// memory, more show what plans cost where the inputs are at hand.
+    pub rows_of_thread: u32,
+    /// How often all of it is done in one measurement.
     pub repeats: u32,
     /// How often to measure.
     pub protocol: Protocol,
@@ -54,6 +57,7 @@ impl Default for Options {
             shapes: Shape::ALL.to_vec(),
             assume: false,
             rows: 1 << 17,
+            rows_of_thread: 8,
             repeats: 1,
             protocol: Protocol { warm_up: 3, rounds: 15 },
             wall_clock: false,
@@ -182,9 +186,9 @@ pub fn tune<'p>(
 
     progress("compiling");
     let watch = if options.wall_clock { Stopwatch::wall(gpu) } else { Stopwatch::new(gpu) };
-    let mut subjects = vec![Timed::floor(gpu, program)?];
+    let mut subjects = vec![Timed::floor(gpu, program, options.rows_of_thread)?];
     for plan in &plans {
-        subjects.push(Timed::plan(gpu, &plan.proved)?);
+        subjects.push(Timed::plan(gpu, &plan.proved, options.rows_of_thread)?);
     }
     let mut floor = Vec::new();
     for kind in Kind::ALL {
@@ -331,8 +335,8 @@ impl Tuning<'_> {
     pub fn method(&self) -> String {
         let captured = if self.frames { "captured frames" } else { "states drawn as the profile says" };
         format!(
-            "{}, {} rows, medians of {} interleaved measurements; captured: {captured}",
-            self.clock, self.options.rows, self.options.protocol.rounds
+            "{}, {} rows, {} per thread, medians of {} interleaved measurements; captured: {captured}",
+            self.clock, self.options.rows, self.options.rows_of_thread, self.options.protocol.rounds
         )
     }
 }
