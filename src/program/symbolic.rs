@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use num_traits::Signed;
 
 use super::region::{self, Sign};
-use crate::program::normal::{Affine, Normaliser, Term};
+use crate::program::normal::{Affine, Normaliser};
 use crate::program::print::Printer;
 use crate::program::{
     BinaryOp, Comparison, Cond, CondId, ExprId, InputId, LevelSet, LevelTerm, Node, Pool, Program, Symmetry, TernaryOp,
