@@ -122,7 +122,13 @@ fn symmetries() {
         )
     };
     says!("odd_one_out", table("if b { y } else { 1 - x }", ""));
-    says!("undecided", table("if b { 1 - y } else { 1 - y }", ""));
+    says!(
+        "undecided",
+        said(
+            SIDES,
+            "    symmetries: {\"mirror\": Symmetry(map: {\"h\": {\"left\": \"right\", \"right\": \"left\"}, \"x\": \"1 - x\"})},\n    cases: [\n        Case(id: 1, when: \"h == left && !b\", value: \"x + d\"),\n        Case(id: 2, when: \"h == right && !b\", value: \"x - d\"),\n        Case(id: 3, when: \"v == top && b\", value: \"y\"),\n    ],\n    default: 0,\n"
+        )
+    );
     says!(
         "own_image",
         table(
@@ -135,7 +141,7 @@ fn symmetries() {
         said(
             SIDES,
             &format!(
-                "{MIRRORS}    assume: {{\"A\": \"h == none || v == none || x == y\"}},\n    cases: [\n        Case(id: 1, when: \"!b && h == left && v == top\", value: \"x * d\"),\n        Case(id: 2, when: \"!b && h == right && v == top\", value: \"(1 - x) * d\"),\n        Case(id: 3, when: \"!b && h == left && v == bottom\", value: \"x * d\"),\n        Case(id: 4, when: \"!b && h == right && v == bottom\", value: \"(1 - x) * d\"),\n    ],\n    default: \"if b {{ 0 }} else {{ 1 }}\",\n"
+                "{MIRRORS}    assume: {{\"A\": \"h == none || v == none || x == y\"}},\n    cases: [\n        Case(id: 1, when: \"!b && h == left && v == top\", value: \"x\"),\n        Case(id: 2, when: \"!b && h == right && v == top\", value: \"1 - x\"),\n        Case(id: 3, when: \"!b && h == left && v == bottom\", value: \"x\"),\n        Case(id: 4, when: \"!b && h == right && v == bottom\", value: \"1 - x\"),\n    ],\n    default: \"if b {{ 0 }} else {{ 1 }}\",\n"
             )
         )
     );
@@ -155,7 +161,9 @@ fn numbers() {
             "        Case(id: 1, when: \"x == 0.25\", value: 1),\n        Case(id: 2, when: \"x != 0.25\", value: \"if y == 0 { 2 } else { 3 }\"),"
         )
     );
-    says!("out_of_range", said(INPUTS, "    cases: [\n        Case(id: 1, when: \"s == low\", value: \"1.5 + 0.25 * y\"),\n        Case(id: 2, when: \"f && g\", value: \"x\"),\n    ],\n    default: 0,\n").replace("output: Number()", "output: Number(clamp: (0, 1))"));
+    let place = Place::new();
+    place.file("demo.ron", format!("Table(language: 1, name: \"demo\", hit_policy: First,\n    inputs: {{{INPUTS}}},\n    output: Number(clamp: (0, 1)),\n    cases: [\n        Case(id: 1, when: \"s == low\", value: \"1.5 + 0.25 * y\"),\n        Case(id: 2, when: \"f && g\", value: \"x\"),\n    ],\n    default: 0)\n"));
+    says!("out_of_range", place.run("check demo.ron").all());
 }
 
 #[test]

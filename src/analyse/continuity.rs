@@ -18,7 +18,7 @@ use crate::program::{Continuity, ContinuityKind, ExprId, InputId, InputSet, Leve
 type Sides = [(Option<usize>, Option<usize>); 2];
 
 /// How finely the size of a jump is measured, in halvings of the output's range.
-const HALVINGS: usize = 10;
+const HALVINGS: usize = 11;
 
 /// A jump.
 struct Jump {
@@ -177,14 +177,14 @@ fn size(study: &mut Study<'_>, jump: &Jump) -> (f64, Set) {
     for (a, b) in jump.values[0].iter().zip(&jump.values[1]) {
         for (low, high) in [(*a, *b), (*b, *a)] {
             let ranges = [low, high].map(|v| super::real::range(study.program, &study.space.pool, v, 1e-2));
-            let (mut from, mut to) = (0.0, ranges[1].1 - ranges[0].0);
-            if !to.is_finite() {
+            let most = ranges[1].1 - ranges[0].0;
+            if !(most > 0.0 && most < 1e9) {
                 continue;
             }
+            // From a power of two halving is exact, and so is a size that is short in binary.
+            let (mut from, mut to) = (0.0, libm::exp2(libm::ceil(libm::log2(most))));
             for _ in 0..HALVINGS {
                 let middle: f64 = f64::midpoint(from, to);
-                // Short in binary, so that sums stay exact.
-                let middle = (middle * 1024.0).round() / 1024.0;
                 let far = study.space.exceeds(low, high, middle);
                 let far = study.space.sets.and(far, jump.set);
                 if study.space.is_void(far) {
@@ -196,7 +196,10 @@ fn size(study: &mut Study<'_>, jump: &Jump) -> (f64, Set) {
                     }
                 }
             }
-            best = best.max(if to - from < 2e-3 && from > 0.0 { to } else { from });
+            // The last step was not exceeded and the one before was.
+            if from > 0.0 && from >= best {
+                best = to;
+            }
         }
     }
     (best, place)

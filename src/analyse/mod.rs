@@ -5,6 +5,7 @@
 //! a declaration that nothing uses, cases that contradict each other. Each analysis is a file of its own and a
 //! line of [`ANALYSES`].
 
+mod claims;
 mod continuity;
 mod coverage;
 mod errata;
@@ -32,6 +33,7 @@ use crate::diag::{Diagnostic, Severity, codes};
 use crate::program::Program;
 use study::Study;
 
+pub use claims::allowance;
 pub use coverage::{Coverage, Dead, coverage};
 pub use errata::{errata, seeded};
 pub use examples::agrees;
@@ -46,6 +48,7 @@ pub use violations::{Violation, admissible, violations, violations_under};
 /// Analyses that look at a program as it is written.
 const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[
     examples::findings,
+    claims::findings,
     unused::findings,
     #[cfg(feature = "precise")]
     singular::findings,
@@ -83,8 +86,17 @@ pub fn report(program: &Program, levels: &Levels) -> Findings {
         }
         found.extend(more);
     }
+    drop_twice_said(&mut found);
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     levels::sort(program, found, levels)
+}
+
+/// Divisions by zero are looked at twice; what is said of their limits says more.
+fn drop_twice_said(found: &mut Vec<Diagnostic>) {
+    let limits = [codes::REMOVABLE, codes::POLE];
+    let places = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
+    let told: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(places).collect();
+    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !places(finding).is_some_and(|p| told.contains(&p)));
 }
 
 fn not_analysed(program: &Program) -> Diagnostic {

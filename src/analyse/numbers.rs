@@ -130,7 +130,14 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
             if !real::is_partial(&study.space.pool, *value) || study.space.is_void(set) {
                 continue;
             }
-            let Some((trouble, numbers)) = search(study, set, *value) else { continue };
+            let (trouble, numbers) = match search(study, set, *value) {
+                Search::Found(trouble, numbers) => (trouble, numbers),
+                Search::Nothing => continue,
+                Search::Unknown => {
+                    found.extend(undecided(study, piece.row, piece.line));
+                    continue;
+                }
+            };
             let span = match (piece.row.map(|row| &program.rows[row]), piece.line) {
                 (Some(row), Some(line)) => row.lines[line].span,
                 (Some(row), None) => row.span,
@@ -156,11 +163,28 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
 }
 
 /// Most boxes that the search for trouble looks at.
-const MAX_BOXES: usize = 4096;
+const MAX_BOXES: usize = 1024;
+
+/// How a search for trouble ended.
+enum Search {
+    Found(Trouble, Vec<f64>),
+    Nothing,
+    /// Out of patience.
+    Unknown,
+}
+
+/// A note on a value for which the search gave up.
+fn undecided(study: &Study<'_>, row: Option<usize>, line: Option<usize>) -> Option<Diagnostic> {
+    let row = &study.program.rows[row?];
+    let message = format!("whether the value of case {} can leave the numbers was not decided", row.id);
+    let note = Diagnostic::note(codes::NOT_ANALYSED, message);
+    let note = note.at(line.map_or(row.span, |line| row.lines[line].span), "");
+    Some(note.help(format!("it depends on too many inputs at once: {MAX_BOXES} parts of the domain were looked at")))
+}
 
 /// A point of a set at which an operation in a value fails, if there is one;
 /// what cannot be excluded counts if it is inside the set.
-fn search(study: &mut Study<'_>, set: Set, value: ExprId) -> Option<(Trouble, Vec<f64>)> {
+fn search(study: &mut Study<'_>, set: Set, value: ExprId) -> Search {
     let program = study.program;
     let inputs = study.space.pool.expr_facts(value).inputs;
     let whole = Boxed::domain(program);
@@ -177,7 +201,7 @@ fn search(study: &mut Study<'_>, set: Set, value: ExprId) -> Option<(Trouble, Ve
             if study.space.with_numbers(set, &point).is_some() {
                 inside += 1;
                 if real::trouble(&study.space.pool, value, &Boxed::at(&point)).is_some() {
-                    return Some((trouble, point));
+                    return Search::Found(trouble, point);
                 }
             }
         }
@@ -185,16 +209,16 @@ fn search(study: &mut Study<'_>, set: Set, value: ExprId) -> Option<(Trouble, Ve
         if looked >= MAX_BOXES || part.width(inputs) < 1e-6 {
             // All around lies in the set, and no smaller box will tell.
             if inside == corners {
-                return Some((trouble, part.middle()));
+                return Search::Found(trouble, part.middle());
             }
             if looked >= MAX_BOXES {
-                return None;
+                return Search::Unknown;
             }
             continue;
         }
         pending.extend(part.halves(inputs));
     }
-    None
+    Search::Nothing
 }
 
 /// Comparisons for equality in guards, conditions and values. In assumptions they are how a line is described.

@@ -172,6 +172,9 @@ fn disjoint(study: &mut Study<'_>, row: usize) -> Option<String> {
     let guard = study.space.prune(guard);
     let taken = study.space.sets.and(guard, study.rows.taken[row]);
     let taken = study.space.prune(taken);
+    if taken.is_empty() {
+        return None;
+    }
     let mut masked = study.space.sets.minus(guard, study.rows.taken[row]);
     let mut chosen: Vec<(usize, LevelSet)> = Vec::new();
     while !study.space.is_void(masked) {

@@ -128,6 +128,14 @@ impl<'p> Space<'p> {
         self.inputs_of_digits.get(digit).copied()
     }
 
+    /// The form whose sign a digit is, if it is one.
+    pub(super) fn form_of(&self, digit: usize) -> Option<&Affine> {
+        match self.questions.get(digit.checked_sub(self.inputs_of_digits.len())?)? {
+            Question::Sign(form) => Some(&self.forms[*form]),
+            Question::Opaque => None,
+        }
+    }
+
     /// The view in which inputs are images, themselves seen through `inner`.
     pub(super) fn view(&mut self, levels: &[(InputId, LevelTerm)], numbers: &[(InputId, ExprId)], inner: View) -> View {
         let (levels, numbers) = (levels.iter().cloned().collect(), numbers.iter().copied().collect());

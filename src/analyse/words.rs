@@ -26,7 +26,9 @@ pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> St
             }
         };
         match value {
-            Some(value) if input.default != Some(value) => parts.push(format!("{}={}", input.name, input.show(value))),
+            Some(value) if input.default != Some(value) || matches!(value, Value::Number(_)) => {
+                parts.push(format!("{}={}", input.name, input.show(value)))
+            }
             _ => {}
         }
     }
@@ -56,7 +58,10 @@ pub(super) fn conditions(space: &mut Space<'_>, set: Set, most: usize) -> Vec<St
 pub(super) fn condition(space: &mut Space<'_>, pattern: &[(usize, LevelSet)]) -> String {
     let program = space.program;
     let parts = pattern.iter().filter_map(|(digit, levels)| {
-        let input = space.input_of(*digit)?;
+        let Some(input) = space.input_of(*digit) else {
+            let form = space.form_of(*digit)?;
+            return Some(comparison(program, form, *levels));
+        };
         let count = program.levels(input)?.count();
         let condition = space.pool.level(input, *levels, count);
         Some(Printer { pool: &space.pool, inputs: &program.inputs }.cond(condition))
@@ -66,6 +71,20 @@ pub(super) fn condition(space: &mut Space<'_>, pattern: &[(usize, LevelSet)]) ->
         true => "true".to_owned(),
         false => parts.join(" && "),
     }
+}
+
+/// Signs of a form as a comparison: `px > dV`.
+fn comparison(program: &Program, form: &Affine, signs: LevelSet) -> String {
+    let symbol = ["", ">", "==", ">=", "<", "!=", "<=", ""][(signs.0 & 7) as usize];
+    let (mut left, mut right) = (form.clone(), form.clone());
+    left.terms.retain(|_, factor| factor.is_positive());
+    right.terms.retain(|_, factor| factor.is_negative());
+    right.terms.values_mut().for_each(|factor| *factor = -*factor);
+    match form.constant.is_positive() {
+        true => right.constant = Rational::zero(),
+        false => (left.constant, right.constant) = (Rational::zero(), -form.constant),
+    }
+    format!("{} {symbol} {}", affine(program, &left), affine(program, &right))
 }
 
 /// A value without the clamp of the output.

@@ -15,6 +15,7 @@ mod rust;
 mod text;
 pub mod timed;
 mod validate;
+mod values;
 mod wgsl;
 
 use crate::diag::Failure;

@@ -18,9 +18,17 @@ const MAX_STEPS: usize = 120;
 /// Longest line of a node, in characters.
 const LINE: usize = 38;
 
-/// The steps of a plan as an SVG document; `None` if there are too many of them.
-pub(super) fn graph(plan: &Plan<'_>) -> Option<String> {
-    let steps = steps(plan)?;
+/// A drawn plan.
+pub(super) struct Graph {
+    /// The SVG document.
+    pub(super) svg: String,
+    /// Whether everything is drawn; else the steps that are farthest from the start are left out.
+    pub(super) complete: bool,
+}
+
+/// Draws the steps of a plan, from the first one on as far as they can be looked at.
+pub(super) fn graph(plan: &Plan<'_>) -> Graph {
+    let (steps, complete) = steps(plan);
     let mut drawn = VisualGraph::new(Orientation::TopToBottom);
     let mut handles = HashMap::new();
     for id in &steps {
@@ -36,30 +44,33 @@ pub(super) fn graph(plan: &Plan<'_>) -> Option<String> {
         for (next, label) in edges(plan, *id) {
             let mut arrow = Arrow::simple(&label);
             arrow.look = StyleAttr::new(Color::fast("#5d6470ff"), 1, None, 0, 11);
-            drawn.add_edge(arrow, handles[id], handles[&next]);
+            if let Some(next) = handles.get(&next) {
+                drawn.add_edge(arrow, handles[id], *next);
+            }
         }
     }
     let mut svg = SVGWriter::new();
     drawn.do_it(false, false, false, &mut svg);
-    Some(svg.finalize().replace("Times, serif", "sans-serif"))
+    Graph { svg: svg.finalize().replace("Times, serif", "sans-serif"), complete }
 }
 
-/// The steps from the root on, if they are few enough.
-fn steps(plan: &Plan<'_>) -> Option<Vec<StepId>> {
+/// The steps from the root on, nearest first, and whether these are all.
+fn steps(plan: &Plan<'_>) -> (Vec<StepId>, bool) {
     let mut found = vec![plan.root()];
     let mut at = 0;
     while let Some(id) = found.get(at).copied() {
         at += 1;
         for (next, _) in edges(plan, id) {
-            if !found.contains(&next) {
-                found.push(next);
+            if found.contains(&next) {
+                continue;
             }
-        }
-        if found.len() > MAX_STEPS {
-            return None;
+            if found.len() >= MAX_STEPS {
+                return (found, false);
+            }
+            found.push(next);
         }
     }
-    Some(found)
+    (found, true)
 }
 
 fn edges(plan: &Plan<'_>, id: StepId) -> Vec<(StepId, String)> {
@@ -121,8 +132,8 @@ mod tests {
     fn plans_are_drawn_with_their_tests_and_cases() {
         let program = Program::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"));
         let plan = Plan::new(&program, Shape::Ladder).unwrap_or_else(|e| panic!("{e}"));
-        let svg = graph(&plan).expect("few steps");
-        assert!(svg.contains("<svg") && svg.contains("case 12"), "{svg}");
+        let Graph { svg, complete } = graph(&plan);
+        assert!(complete && svg.contains("<svg") && svg.contains("case 12"), "{svg}");
         assert_eq!(wrap("a b"), "a b");
         assert_eq!(wrap(&"word ".repeat(9)), "word word word word word word word\nword word ");
     }

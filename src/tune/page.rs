@@ -14,6 +14,7 @@ use crate::program::Program;
 pub fn page(program: &Program, tuning: &Tuning<'_>, weights: &Weights) -> String {
     let chosen = &tuning.plans[tuning.chosen];
     let name = chosen.candidate.name();
+    let drawn = graph(chosen.proved.plan());
     let body = html! {
         p.lead { (program.title) }
         table {
@@ -45,10 +46,9 @@ pub fn page(program: &Program, tuning: &Tuning<'_>, weights: &Weights) -> String
         h2 { "Frequencies" }
         figure { (PreEscaped(chart(&tuning.profile.profile))) }
         h2 { "The decision" }
-        @match graph(chosen.proved.plan()) {
-            Some(svg) => { p { "The plan " code { (name) } ": tests are white, fetches yellow, cases blue." } figure { (PreEscaped(inline(&svg))) } }
-            None => { p { "The plan " code { (name) } " has too many steps to be drawn." } }
-        }
+        p { "The plan " code { (name) } ": tests are white, fetches yellow, cases blue."
+            @if !drawn.complete { " It is too large to be drawn as a whole; this is how it begins." } }
+        figure { (PreEscaped(inline(&drawn.svg))) }
     };
     picture::page(&format!("Tuning of {}", program.name), body)
 }
