@@ -83,6 +83,20 @@ fn relevant(study: &Study<'_>, first: usize, second: usize) -> InputSet {
     words::mentioned(study.program, first).or(words::mentioned(study.program, second))
 }
 
+/// Whether both cases can hold, within a set, with different values.
+fn differ(study: &mut Study<'_>, first: usize, second: usize, within: Set) -> bool {
+    if let ([a], [b]) = (study.rows.own[first].as_slice(), study.rows.own[second].as_slice()) {
+        // One value each: mostly they are the same everywhere or nowhere.
+        match study.space.different(&a.values, &b.values) {
+            Set::EMPTY => return false,
+            Set::ALL if within == Set::ALL => return study.space.can_meet(a.set, b.set),
+            _ => {}
+        }
+    }
+    let different = different(study, first, second, within);
+    !study.space.is_void(different)
+}
+
 /// Where both cases hold, within a set, with different values.
 fn different(study: &mut Study<'_>, first: usize, second: usize, within: Set) -> Set {
     let mut result = Set::EMPTY;
@@ -116,8 +130,7 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
             if !study.space.sets.meets(study.rows.guards[first], study.rows.guards[second]) {
                 continue;
             }
-            let different = different(study, first, second, within);
-            if !study.space.is_void(different) {
+            if differ(study, first, second, within) {
                 pairs.push((first, second));
             }
         }

@@ -40,7 +40,7 @@ pub(super) struct Sets {
     levels: Vec<usize>,
     /// Open addressing: numbers of nodes, 0 for a free place.
     index: Vec<u32>,
-    memo: HashMap<(Operation, Set, Set), Set, BuildHasherDefault<Mixer>>,
+    memo: Map<(Operation, Set, Set), Set>,
     full: bool,
 }
 
@@ -50,6 +50,9 @@ enum Operation {
     Or,
     Minus,
 }
+
+/// A map that is asked often, with small keys.
+pub(super) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
 
 /// A hasher for a few small numbers.
 #[derive(Default)]
@@ -88,7 +91,7 @@ impl Sets {
             children: Vec::new(),
             levels: Vec::new(),
             index: vec![0; 1 << 10],
-            memo: HashMap::default(),
+            memo: Map::default(),
             full: false,
         }
     }
@@ -258,10 +261,10 @@ impl Sets {
 
     /// Where the digits before `end` leave something of the set.
     pub(super) fn shadow(&mut self, set: Set, end: usize) -> Set {
-        self.shadow_memo(set, end, &mut HashMap::default())
+        self.shadow_memo(set, end, &mut Map::default())
     }
 
-    fn shadow_memo(&mut self, set: Set, end: usize, memo: &mut HashMap<Set, Set, BuildHasherDefault<Mixer>>) -> Set {
+    fn shadow_memo(&mut self, set: Set, end: usize, memo: &mut Map<Set, Set>) -> Set {
         match self.test(set) {
             None => return set,
             Some((digit, _)) if digit >= end => return Set::ALL,
@@ -279,16 +282,10 @@ impl Sets {
 
     /// A set as it is where a digit has a level; the digit does not matter any more.
     pub(super) fn fix(&mut self, set: Set, digit: usize, level: usize) -> Set {
-        self.fix_memo(set, digit, level, &mut HashMap::default())
+        self.fix_memo(set, digit, level, &mut Map::default())
     }
 
-    fn fix_memo(
-        &mut self,
-        set: Set,
-        digit: usize,
-        level: usize,
-        memo: &mut HashMap<Set, Set, BuildHasherDefault<Mixer>>,
-    ) -> Set {
+    fn fix_memo(&mut self, set: Set, digit: usize, level: usize, memo: &mut Map<Set, Set>) -> Set {
         let (tested, children) = match self.test(set) {
             Some((tested, children)) if tested == digit => return children[level],
             Some((tested, children)) if tested < digit => (tested, children.to_vec()),
@@ -306,10 +303,10 @@ impl Sets {
     /// How many combinations of the digits before `end` a set has that tests no others.
     pub(super) fn count(&self, set: Set, end: usize) -> f64 {
         let all: f64 = self.levels[..end].iter().map(|count| *count as f64).product();
-        all * self.share(set, &mut HashMap::default())
+        all * self.share(set, &mut Map::default())
     }
 
-    fn share(&self, set: Set, memo: &mut HashMap<Set, f64, BuildHasherDefault<Mixer>>) -> f64 {
+    fn share(&self, set: Set, memo: &mut Map<Set, f64>) -> f64 {
         let Some((_, children)) = self.test(set) else {
             return if set.is_empty() { 0.0 } else { 1.0 };
         };

@@ -18,7 +18,7 @@ use num_traits::{Signed, Zero};
 use super::mutate::Random;
 use super::point::Point;
 use super::real::Boxed;
-use super::sets::{Set, Sets};
+use super::sets::{Map, Set, Sets};
 use crate::program::normal::{Affine, Lattice, Normaliser, Rational, Term, rational};
 use crate::program::region::{self, Sign};
 use crate::program::{
@@ -72,9 +72,9 @@ pub(super) struct Space<'p> {
     form_digits: HashMap<Affine, usize>,
     opaque_digits: HashMap<(ExprId, ExprId), usize>,
     views: Vec<Images>,
-    conditions: HashMap<(CondId, View), Set>,
-    parts: HashMap<(ExprId, View), Parts>,
-    pruned: HashMap<Set, Set>,
+    conditions: Map<(CondId, View), Set>,
+    parts: Map<(ExprId, View), Parts>,
+    pruned: Map<Set, Set>,
     /// Signs of forms that were asked for together, and whether numbers have them.
     possible: HashMap<Vec<(usize, u8)>, bool>,
     too_large: bool,
@@ -105,9 +105,9 @@ impl<'p> Space<'p> {
             form_digits: HashMap::new(),
             opaque_digits: HashMap::new(),
             views: vec![Images { levels: HashMap::new(), numbers: HashMap::new(), inner: View::PLAIN }],
-            conditions: HashMap::new(),
-            parts: HashMap::new(),
-            pruned: HashMap::new(),
+            conditions: Map::default(),
+            parts: Map::default(),
+            pruned: Map::default(),
             possible: HashMap::new(),
             too_large: false,
         }
@@ -476,11 +476,18 @@ impl<'p> Space<'p> {
 
     /// Whether nothing can reach a set.
     pub(super) fn is_void(&mut self, set: Set) -> bool {
-        self.prune(set).is_empty()
+        // Without comparisons every combination of levels can be reached.
+        if self.questions.is_empty() { set.is_empty() } else { self.prune(set).is_empty() }
     }
 
     /// Whether something can reach both sets.
     pub(super) fn can_meet(&mut self, a: Set, b: Set) -> bool {
+        if !self.sets.meets(a, b) {
+            return false;
+        }
+        if self.questions.is_empty() {
+            return true;
+        }
         let both = self.sets.and(a, b);
         !self.is_void(both)
     }

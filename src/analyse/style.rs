@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use super::study::Study;
 use super::words;
 use crate::diag::{Diagnostic, Span, codes};
-use crate::program::{CondId, ExprId, LevelKind, Program};
+use crate::program::{CondId, ExprId, LevelKind, LevelSet, Program};
 use crate::table::expr::{Expr, ExprKind};
 use crate::table::{CaseBody, Table};
 
@@ -18,30 +18,27 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Most patterns of guards that a merged case may take.
-const MAX_PATTERNS: usize = 2;
+/// Levels of some digits, as a guard that is nothing else.
+type Pattern = Vec<(usize, LevelSet)>;
 
-/// Cases with one value whose guards together are a single pattern of levels.
+/// Cases with one value whose guards differ in the levels of a single input.
 fn mergeable(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut found = Vec::new();
-    let mut by_value: HashMap<Vec<(CondId, Vec<ExprId>)>, Vec<usize>> = HashMap::new();
+    let mut by_value: HashMap<Vec<(CondId, Vec<ExprId>)>, Vec<(usize, Pattern)>> = HashMap::new();
     for (number, row) in program.rows.iter().enumerate() {
+        let guard = study.rows.guards[number];
+        let patterns = study.space.sets.patterns(guard, 2);
+        let [pattern] = patterns.as_slice() else { continue };
         let lines: Vec<_> = row.lines.iter().map(|line| (line.condition, line.values.clone())).collect();
         let earlier = by_value.entry(lines).or_default();
-        let guard = study.rows.guards[number];
-        for first in earlier.iter().copied() {
-            let either = study.space.sets.or(study.rows.guards[first], guard);
-            let patterns = study.space.sets.patterns(either, MAX_PATTERNS);
-            let between = (first + 1..number).any(|other| study.space.sets.meets(study.rows.guards[other], guard));
-            let [pattern] = patterns.as_slice() else { continue };
-            // A pattern stops short of a set that it does not make up.
-            if between || study.space.sets.pattern(pattern) != either {
+        for (first, other) in earlier.iter() {
+            let Some(merged) = merged(study, other, pattern) else { continue };
+            if (first + 1..number).any(|between| study.space.sets.meets(study.rows.guards[between], guard)) {
                 continue;
             }
-            let pattern = pattern.clone();
-            let condition = words::condition(&mut study.space, &pattern);
-            let (a, b) = (&program.rows[first], row);
+            let condition = words::condition(&mut study.space, &merged);
+            let (a, b) = (&program.rows[*first], row);
             found.push(
                 Diagnostic::note(codes::MERGEABLE, format!("cases {} and {} could be one", a.id, b.id))
                     .at(b.guard_span, "")
@@ -50,9 +47,27 @@ fn mergeable(study: &mut Study<'_>) -> Vec<Diagnostic> {
             );
             break;
         }
-        earlier.push(number);
+        earlier.push((number, pattern.clone()));
     }
     found
+}
+
+/// The one pattern that two are together, if they differ in a single digit.
+fn merged(study: &Study<'_>, a: &Pattern, b: &Pattern) -> Option<Pattern> {
+    let levels = |pattern: &Pattern, digit| pattern.iter().find(|(own, _)| *own == digit).map(|(_, levels)| *levels);
+    let mut digits: Vec<usize> = a.iter().chain(b).map(|(digit, _)| *digit).collect();
+    digits.sort_unstable();
+    digits.dedup();
+    let mut different = digits.iter().copied().filter(|digit| levels(a, *digit) != levels(b, *digit));
+    let (one, None) = (different.next()?, different.next()) else { return None };
+    let both = LevelSet(levels(a, one)?.0 | levels(b, one)?.0);
+    let everything = both == LevelSet::all(study.space.sets.levels(one));
+    let mut pattern: Pattern = a.iter().copied().filter(|(digit, _)| *digit != one).collect();
+    if !everything {
+        pattern.push((one, both));
+        pattern.sort_unstable_by_key(|(digit, _)| *digit);
+    }
+    Some(pattern)
 }
 
 /// Constants as written that no `f32` equals: one note for all of them.
