@@ -16,13 +16,25 @@ mod diff;
 mod errata;
 mod eval;
 mod explain;
+#[cfg(feature = "render")]
+mod frame;
 mod json_input;
 mod levels;
 mod output;
 mod profile;
 mod profiled;
+#[cfg(feature = "render")]
+mod progress;
+#[cfg(all(feature = "render", feature = "report"))]
+mod quality;
+#[cfg(all(feature = "render", feature = "report"))]
+mod render;
 mod report;
+#[cfg(feature = "render")]
+mod scenes;
 mod stabilise;
+#[cfg(feature = "report")]
+mod table_report;
 #[cfg(feature = "gpu")]
 mod tune;
 mod why;
@@ -74,6 +86,18 @@ enum Command {
     Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Put everything about a table on one page
+    #[cfg(feature = "report")]
+    Report(table_report::Arguments),
+    /// Measure how far each technique is from the true shadow
+    #[cfg(all(feature = "render", feature = "report"))]
+    Quality(quality::Arguments),
+    /// Render a scene with its shadows
+    #[cfg(all(feature = "render", feature = "report"))]
+    Render(render::Arguments),
+    /// List the scenes that come with Umbrage
+    #[cfg(feature = "render")]
+    Scenes,
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -155,6 +179,14 @@ pub fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(feature = "report")]
+        Command::Report(arguments) => table_report::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Quality(arguments) => quality::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Render(arguments) => render::run(&arguments, &report),
+        #[cfg(feature = "render")]
+        Command::Scenes => scenes::run(&report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),

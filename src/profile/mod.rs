@@ -25,7 +25,7 @@ pub use chart::chart;
 pub use count::{Frame, TILE};
 pub use file::{read, to_ron};
 pub use fit::{Excluded, Fitted, fit};
-pub use summary::{Change, Frequency, changes, frequencies, total_variation};
+pub use summary::{Change, Frequency, changes, frequencies, shares, total_variation};
 
 /// How often the states of a table occur.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,6 +175,15 @@ impl Profile {
             }
         }
         Ok(())
+    }
+}
+
+impl Tiles {
+    /// How many different states a tile has on average: 1 where neighbours agree, more where they diverge.
+    pub fn mean_states(&self) -> f64 {
+        let tiles: f64 = self.sets.values().map(|count| *count as f64).sum();
+        let states: f64 = self.sets.iter().map(|(set, count)| set.len() as f64 * *count as f64).sum();
+        if tiles > 0.0 { states / tiles } else { 0.0 }
     }
 }
 
