@@ -77,6 +77,17 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 /// Every finding: those to be shown, at the levels asked for, and those that the table acknowledges.
 pub fn report(program: &Program, levels: &Levels) -> Findings {
     let mut found: Vec<Diagnostic> = PLAIN.iter().flat_map(|analysis| analysis(program)).collect();
+    // A function has no cases that could contradict each other, and `claims` and `singular` look at its numbers.
+    if program.function.is_none() {
+        found.extend(symbolic(program));
+    }
+    drop_twice_said(&mut found);
+    found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
+    levels::sort(program, found, levels)
+}
+
+fn symbolic(program: &Program) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
     let mut study = Study::new(program);
     for analysis in SYMBOLIC {
         let more = analysis(&mut study);
@@ -86,9 +97,7 @@ pub fn report(program: &Program, levels: &Levels) -> Findings {
         }
         found.extend(more);
     }
-    drop_twice_said(&mut found);
-    found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-    levels::sort(program, found, levels)
+    found
 }
 
 /// Divisions by zero are looked at twice; what is said of their limits says more.

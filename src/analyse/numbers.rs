@@ -1,9 +1,10 @@
 //! U0513 to U0515: numbers: values that the clamp always cuts, operations that
 //! can leave the numbers, comparisons for equality.
 
+use super::point::Point;
 use super::real::{self, Boxed, Trouble};
 use super::sets::Set;
-use super::study::Study;
+use super::study::{Piece, Study};
 use super::words;
 use crate::diag::{Diagnostic, codes};
 use crate::program::print::Printer;
@@ -130,7 +131,7 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
             if !real::is_partial(&study.space.pool, *value) || study.space.is_void(set) {
                 continue;
             }
-            let (trouble, numbers) = match search(study, set, *value) {
+            let (trouble, numbers) = match search(study, &piece, set, *value) {
                 Search::Found(trouble, numbers) => (trouble, numbers),
                 Search::Nothing => continue,
                 Search::Unknown => {
@@ -184,7 +185,7 @@ fn undecided(study: &Study<'_>, row: Option<usize>, line: Option<usize>) -> Opti
 
 /// A point of a set at which an operation in a value fails, if there is one;
 /// what cannot be excluded counts if it is inside the set.
-fn search(study: &mut Study<'_>, set: Set, value: ExprId) -> Search {
+fn search(study: &mut Study<'_>, piece: &Piece, set: Set, value: ExprId) -> Search {
     let program = study.program;
     let inputs = study.space.pool.expr_facts(value).inputs;
     let whole = Boxed::domain(program);
@@ -198,7 +199,7 @@ fn search(study: &mut Study<'_>, set: Set, value: ExprId) -> Search {
         let (mut inside, mut corners) = (0, 0);
         for point in part.corners(inputs) {
             corners += 1;
-            if study.space.with_numbers(set, &point).is_some() {
+            if is_in(study, piece, set, &point) {
                 inside += 1;
                 if real::trouble(&study.space.pool, value, &Boxed::at(&point)).is_some() {
                     return Search::Found(trouble, point);
@@ -206,19 +207,27 @@ fn search(study: &mut Study<'_>, set: Set, value: ExprId) -> Search {
             }
         }
         looked += 1;
-        if looked >= MAX_BOXES || part.width(inputs) < 1e-6 {
+        if part.width(inputs) < 1e-6 {
             // All around lies in the set, and no smaller box will tell.
             if inside == corners {
                 return Search::Found(trouble, part.middle());
             }
-            if looked >= MAX_BOXES {
-                return Search::Unknown;
-            }
             continue;
+        }
+        if looked >= MAX_BOXES {
+            return Search::Unknown;
         }
         pending.extend(part.halves(inputs));
     }
     Search::Nothing
+}
+
+/// Whether a piece gives its value at these numbers, for some levels.
+fn is_in(study: &mut Study<'_>, piece: &Piece, set: Set, numbers: &[f64]) -> bool {
+    let Some(witness) = study.space.with_numbers(set, numbers) else { return false };
+    // What is not linear was taken to be possible, so the program itself is asked.
+    let outcome = Point::of(study.program, &witness).outcome(study.program);
+    (outcome.row, outcome.line) == (piece.row, piece.line)
 }
 
 /// Comparisons for equality in guards, conditions and values. In assumptions they are how a line is described.
