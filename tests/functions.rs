@@ -185,7 +185,11 @@ fn values_and_errors_at_the_edges() {
     assert_eq!(forwards.replace("0,", "0,-"), backwards);
     // At the pole, and around the whole sphere.
     assert_eq!(eval("double_product", "A1", &row("0,1,0,0,0")).out, "case,value\n0,0\n");
-    let sphere = eval("double_product", "moments", "phi0,phi1,theta0,theta_a,theta_b\n-3.1415927,3.1415927,0,3.1415927,3.1415927\n");
+    let sphere = eval(
+        "double_product",
+        "moments",
+        "phi0,phi1,theta0,theta_a,theta_b\n-3.1415927,3.1415927,0,3.1415927,3.1415927\n",
+    );
     let omega: f64 = sphere.out.trim().rsplit(',').next().unwrap().parse().unwrap();
     assert!((omega - 4.0 * std::f64::consts::PI).abs() < 3e-6, "{}", sphere.all());
     // No slope, no number: refused, as is a boundary off the sphere.
@@ -315,7 +319,10 @@ fn functions_of_other_tables() {
     assert_eq!(place.run("build beach.ron waves.ron").code, Some(0));
     assert!(place.path("generated/waves/functions.wgsl").exists());
     // A mistake in the imported table is shown there, one in the call here.
-    place.file("waves.ron", r#"Table(language: 1, name: "waves", inputs: {}, functions: {"wave": Function(parameters: [], value: "1 +")})"#);
+    place.file(
+        "waves.ron",
+        r#"Table(language: 1, name: "waves", inputs: {}, functions: {"wave": Function(parameters: [], value: "1 +")})"#,
+    );
     let said = place.run("check beach.ron");
     assert!(said.code == Some(2) && said.err.contains("waves.ron:1:"), "{}", said.all());
 }

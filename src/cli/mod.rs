@@ -52,7 +52,9 @@ use report::{Color, Format, Report};
 
 #[derive(Parser)]
 #[command(name = "umbrage", version, about = "Compiles case tables into shaders that are proved equal to the table")]
-#[command(after_help = "Exit codes: 0 clean, 1 findings, 2 failure.\nWhat a message means at length: umbrage explain CODE")]
+#[command(
+    after_help = "Exit codes: 0 clean, 1 findings, 2 failure.\nWhat a message means at length: umbrage explain CODE"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
