@@ -17,6 +17,8 @@ mod eval;
 mod explain;
 mod json_input;
 mod levels;
+#[cfg(all(feature = "render", feature = "report"))]
+mod light;
 mod output;
 mod profile;
 mod report;
@@ -65,6 +67,9 @@ enum Command {
     Explain(explain::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Light a picture by integral expansions
+    #[cfg(all(feature = "render", feature = "report"))]
+    Light(light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
 }
@@ -141,6 +146,8 @@ pub fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Light(arguments) => light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
     };
     match result {

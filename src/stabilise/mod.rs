@@ -202,8 +202,12 @@ fn arguments(sum: &Poly, table: &Table) -> Vec<Argument> {
         if all.iter().any(|known| value.ratio(&known.value).is_some()) {
             continue;
         }
-        let taken =
-            |name: &str| table.inputs.iter().any(|i| i.name.value == name) || all.iter().any(|a| a.name == name);
+        let taken = |name: &str| {
+            table.inputs.iter().any(|i| i.name.value == name)
+                || table.names.iter().any(|n| n.name.value == name)
+                || table.constants.iter().any(|c| c.name.value == name)
+                || all.iter().any(|a| a.name == name)
+        };
         let name = match (is_variable, value.single()) {
             (true, Some((mono, _))) => match mono.keys().next() {
                 Some(Atom::Var(variable)) => variable.clone(),
