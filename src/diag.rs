@@ -215,6 +215,7 @@ pub mod codes {
     pub const EMPTY_PROFILE: Code = Code("U0613");
     pub const OLD_PROFILE: Code = Code("U0614");
     pub const EXCLUDED_STATE: Code = Code("U0615");
+    pub const BAD_TUNED: Code = Code("U0616");
 
     // Values given to a table.
     pub const BAD_COLUMN: Code = Code("U0701");

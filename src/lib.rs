@@ -51,3 +51,6 @@ pub mod show;
 #[cfg(feature = "precise")]
 pub mod stabilise;
 pub mod table;
+#[cfg(feature = "gpu")]
+pub mod tune;
+pub mod tuned;

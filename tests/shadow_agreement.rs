@@ -4,7 +4,10 @@
 
 use umbrage::gpu::{AdapterChoice, Gpu};
 use umbrage::plan::{Plan, Shape};
-use umbrage::shadow::gpu::{GpuFrame, Output, Shader, Skeleton};
+use umbrage::program::Program;
+use umbrage::shadow::gpu::{GpuFrame, Output, Raster, Shader, Skeleton};
+use umbrage::shadow::passes::{Bias, Stage};
+use umbrage::shadow::scene::Scene;
 use umbrage::shadow::{
     DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Technique, Visibility, cpu, max_slope,
 };
@@ -18,7 +21,7 @@ const TECHNIQUES: [Technique; 6] =
 const ROUNDING: f32 = 4.0 * f32::EPSILON;
 
 /// A frame whose map is noise: every constellation of texels occurs.
-fn noise(size: u32, pixels: u32, density: u32, settings: Settings) -> (ShadowMap, Receivers, Settings) {
+fn noise(size: u32, pixels: u32, density: u32) -> (ShadowMap, Receivers) {
     let mut seed = 0x2545_f491_u32;
     let mut random = move |below: u32| {
         seed ^= seed << 13;
@@ -45,33 +48,109 @@ fn noise(size: u32, pixels: u32, density: u32, settings: Settings) -> (ShadowMap
             dz_dy: 0.0,
         })
         .collect();
-    (ShadowMap { size, depth }, Receivers { width: pixels, height: pixels, points }, settings)
+    (ShadowMap { size, depth }, Receivers { width: pixels, height: pixels, points })
+}
+
+/// Every technique with its table, compiled in the ways that must not differ.
+struct Executors<'g> {
+    programs: Vec<Option<Program>>,
+    shaders: Vec<(usize, Skeleton, Shader<'g>)>,
+}
+
+impl<'g> Executors<'g> {
+    fn new(gpu: &'g Gpu) -> Self {
+        let programs: Vec<Option<Program>> =
+            TECHNIQUES.iter().map(|technique| cpu::table(*technique).unwrap()).collect();
+        let mut shaders = Vec::new();
+        for (index, program) in programs.iter().enumerate() {
+            let proved = program.as_ref().map(|program| Plan::proved(program, Shape::Ladder).unwrap());
+            for skeleton in [Skeleton::EXACT, Skeleton::PUBLISHED] {
+                let shader = Shader::new(gpu, TECHNIQUES[index], proved.as_ref(), skeleton, Output::Record);
+                shaders.push((index, skeleton, shader.unwrap_or_else(|error| panic!("{error}"))));
+            }
+        }
+        Self { programs, shaders }
+    }
+
+    /// Compares a frame, with every skeleton if it is to be thorough.
+    fn compare(
+        &self,
+        gpu: &Gpu,
+        what: &str,
+        map: &ShadowMap,
+        receivers: &Receivers,
+        settings: &Settings,
+        thorough: bool,
+    ) {
+        let frame = GpuFrame::new(gpu, map, receivers).unwrap_or_else(|error| panic!("{error}"));
+        for (index, technique) in TECHNIQUES.into_iter().enumerate() {
+            let program = self.programs[index].as_ref();
+            let expected =
+                cpu::visibility(technique, program, cpu::Frame { map, receivers, settings }, &|_| {}).unwrap();
+            for (_, skeleton, shader) in self.shaders.iter().filter(|(of, ..)| *of == index) {
+                if thorough || *skeleton == Skeleton::EXACT {
+                    let (found, _) = shader.record(&frame, settings).unwrap_or_else(|error| panic!("{error}"));
+                    same(&format!("{what}, {technique}, {skeleton:?}"), &expected, &found);
+                }
+            }
+        }
+    }
+}
+
+fn gpu() -> Gpu {
+    Gpu::open(&AdapterChoice::Any).unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]
 fn noise_is_decided_alike() {
-    let gpu = Gpu::open(&AdapterChoice::Any).unwrap_or_else(|error| panic!("{error}"));
+    let gpu = gpu();
+    let executors = Executors::new(&gpu);
+    // A map whose size is no power of two: places in a texel are rounded.
     for (size, density) in [(32, 20), (48, 50)] {
-        let (map, receivers, settings) =
-            noise(size, 160, density, Settings { search_limit: 16, ..Settings::default() });
-        compare(&gpu, &format!("noise {size} {density}"), &map, &receivers, &settings);
+        let (map, receivers) = noise(size, 160, density);
+        let settings = Settings { search_limit: 16, ..Settings::default() };
+        executors.compare(&gpu, &format!("noise {size}"), &map, &receivers, &settings, true);
+    }
+    // A receiver that hugs the surface, so that walks lift it at nearly every step.
+    let (mut map, receivers) = noise(32, 128, 50);
+    map.depth.iter_mut().for_each(|depth| *depth = 0.5 + (*depth - 0.5) * 0.25);
+    let settings = Settings { search_limit: 7, walk_bias: 0.125, ..Settings::default() };
+    executors.compare(&gpu, "lifted", &map, &receivers, &settings, true);
+}
+
+/// No pixel of any scene is excluded.
+#[test]
+fn scenes_are_decided_alike() {
+    let gpu = gpu();
+    let executors = Executors::new(&gpu);
+    let settings = Settings::default();
+    for name in Scene::names() {
+        let scene = Scene::open(name).unwrap_or_else(|error| panic!("{error}"));
+        let stage = Stage::new(&scene);
+        let by_rays = stage.shadow_map(256, Bias::default());
+        let receivers = stage.receivers(&stage.picture(480, 270), 256);
+        executors.compare(&gpu, name, &by_rays, &receivers, &settings, false);
+
+        let raster = Raster::new(&gpu, &stage).unwrap_or_else(|error| panic!("{error}"));
+        let rastered = raster.shadow_map(256, Bias::default()).unwrap_or_else(|error| panic!("{error}"));
+        let picture = raster.picture(480, 270, 256).unwrap_or_else(|error| panic!("{error}"));
+        executors.compare(&gpu, &format!("{name}, rastered"), &rastered, &picture.receivers, &settings, false);
+        like(name, &by_rays, &rastered, &receivers, &picture.receivers);
     }
 }
 
-fn compare(gpu: &Gpu, what: &str, map: &ShadowMap, receivers: &Receivers, settings: &Settings) {
-    let frame = GpuFrame::new(gpu, map, receivers).unwrap_or_else(|error| panic!("{error}"));
-    for technique in TECHNIQUES {
-        let program = cpu::table(technique).unwrap();
-        let expected =
-            cpu::visibility(technique, program.as_ref(), cpu::Frame { map, receivers, settings }, &|_| {}).unwrap();
-        let proved = program.as_ref().map(|program| Plan::proved(program, Shape::Ladder).unwrap());
-        for skeleton in [Skeleton::EXACT, Skeleton::PUBLISHED] {
-            let shader = Shader::new(gpu, technique, proved.as_ref(), skeleton, Output::Record);
-            let shader = shader.unwrap_or_else(|error| panic!("{error}"));
-            let (found, _) = shader.record(&frame, settings).unwrap_or_else(|error| panic!("{error}"));
-            same(&format!("{what}, {technique}, {skeleton:?}"), &expected, &found);
-        }
-    }
+/// Rasterising and casting rays differ at the borders of faces only.
+fn like(name: &str, by_rays: &ShadowMap, rastered: &ShadowMap, receivers: &Receivers, others: &Receivers) {
+    let texels = by_rays.depth.iter().zip(&rastered.depth).filter(|(a, b)| (*a - *b).abs() > 4.0 * DEPTH_UNIT).count();
+    let pixels = receivers.points.iter().zip(&others.points).filter(|(a, b)| {
+        a.kind != b.kind
+            || [a.u - b.u, a.v - b.v].into_iter().any(|off| off.abs() > 0.01 / 256.0)
+            || (a.texel(256).0 == b.texel(256).0 && (a.z - b.z).abs() > 4.0 * DEPTH_UNIT)
+    });
+    let pixels = pixels.count();
+    println!("{name}: {texels} texels and {pixels} pixels differ between rays and rasterising");
+    assert!(texels * 20 < by_rays.depth.len(), "{texels} texels");
+    assert!(pixels * 50 < receivers.points.len(), "{pixels} pixels");
 }
 
 fn same(what: &str, expected: &Visibility, found: &Visibility) {
@@ -91,14 +170,4 @@ fn same(what: &str, expected: &Visibility, found: &Visibility) {
     let worst = (0..expected.value.len()).map(|i| (expected.value[i] - found.value[i]).abs()).fold(0.0, f32::max);
     println!("{what}: {} of {} differ, worst {worst:e}", differing.len(), expected.value.len());
     assert!(differing.is_empty(), "{what}");
-}
-
-/// A receiver that hugs the surface, so that walks lift it at nearly every step.
-#[test]
-fn a_walk_that_lifts_its_receiver_is_the_same() {
-    let gpu = Gpu::open(&AdapterChoice::Any).unwrap_or_else(|error| panic!("{error}"));
-    let settings = Settings { search_limit: 7, walk_bias: 0.125, ..Settings::default() };
-    let (mut map, receivers, settings) = noise(32, 128, 50, settings);
-    map.depth.iter_mut().for_each(|depth| *depth = 0.5 + (*depth - 0.5) * 0.25);
-    compare(&gpu, "lifted", &map, &receivers, &settings);
 }

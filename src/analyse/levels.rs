@@ -31,6 +31,8 @@ pub const FINDINGS: &[(Code, &str)] = &[
     (codes::POLE, "a division by zero where it has none"),
     (codes::CANCELS, "terms that cancel on paper only"),
     (codes::OVERFLOW, "an overflow on the way to a finite value"),
+    (codes::LIMIT_BROKEN, "a function that is not what a limit claims"),
+    (codes::BUDGET_EXCEEDED, "a function that is less accurate than it claims"),
     (codes::UNUSED_ALLOW, "an `allow` that acknowledges nothing"),
 ];
 

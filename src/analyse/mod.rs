@@ -5,6 +5,7 @@
 //! a declaration that nothing uses, cases that contradict each other. Each analysis is a file of its own and a
 //! line of [`ANALYSES`].
 
+mod claims;
 mod coverage;
 mod examples;
 mod levels;
@@ -17,6 +18,7 @@ mod unused;
 use crate::diag::{Diagnostic, Severity};
 use crate::program::{Program, symbolic};
 
+pub use claims::allowance;
 pub use coverage::{Coverage, Dead, coverage};
 pub use examples::agrees;
 pub use levels::{FINDINGS, Findings, Level, Levels};
@@ -28,6 +30,7 @@ pub use symmetry::{Violation, admissible, violations, violations_under};
 /// Every analysis that can find something wrong, in the order in which findings are shown.
 const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] = &[
     examples::findings,
+    claims::findings,
     overlap::findings,
     coverage::findings,
     unused::findings,

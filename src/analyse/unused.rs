@@ -28,14 +28,9 @@ fn warning(kind: &str, name: &str, span: Span, label: &str) -> Diagnostic {
 }
 
 fn inputs(program: &Program) -> Vec<Diagnostic> {
-    let pool = &program.pool;
-    let conditions = program.rows.iter().flat_map(|r| r.lines.iter().map(|l| l.condition).chain([r.guard]));
-    let values = program.rows.iter().flat_map(|r| r.lines.iter().flat_map(|l| &l.values)).chain(&program.default);
-    let used = conditions
-        .map(|c| pool.cond_facts(c).inputs)
-        .chain(values.map(|e| pool.expr_facts(*e).inputs))
-        .fold(InputSet::default(), InputSet::or);
-    let unused = program.input_ids().filter(|(id, _)| !used.contains(*id));
+    // The functions of a table may share one list of parameters.
+    let idle = if program.function.is_some() { InputSet::default() } else { program.idle() };
+    let unused = program.input_ids().filter(|(id, _)| idle.contains(*id));
     let describe = |input: &crate::program::Input| {
         warning("input", &input.name, input.span, "no case and no default depends on it")
             .help("remove it, or check the spelling where it was meant to be used")

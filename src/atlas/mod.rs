@@ -13,9 +13,7 @@ mod text;
 mod values;
 
 use crate::diag::Failure;
-use crate::explain::reach;
-use crate::plan::Weights;
-use crate::program::{InputSet, Program};
+use crate::program::Program;
 
 pub use sheet::{html, page, svg};
 
@@ -41,15 +39,14 @@ pub struct Panel {
 pub const PANEL_WIDTH: i32 = 320;
 
 impl Atlas {
-    /// Draws every case; with weights of the states, also how often each occurs.
+    /// Draws every case; with shares, one per row, also how often each is taken.
     ///
     /// # Errors
     /// When a picture cannot be encoded.
-    pub fn new(program: &Program, weights: Option<&Weights>) -> Result<Self, Failure> {
-        let shares = weights.and_then(|weights| shares(program, weights));
+    pub fn new(program: &Program, shares: Option<&[f64]>) -> Result<Self, Failure> {
         let scale = values::Scale::of(program);
         let panels = program.rows.iter().enumerate().map(|(index, row)| {
-            let share = shares.as_ref().map(|shares| shares[index]);
+            let share = shares.and_then(|shares| shares.get(index).copied());
             let (body, height) = panel::draw(program, index, share, &scale)?;
             Ok(Panel { id: row.id, body, height })
         });
@@ -62,21 +59,4 @@ impl Panel {
     pub fn svg(&self) -> String {
         sheet::document(PANEL_WIDTH, self.height, &self.body)
     }
-}
-
-/// How often each row is taken, as a share of all; `None` where the state alone does not tell.
-pub fn shares(program: &Program, weights: &Weights) -> Option<Vec<f64>> {
-    let digits = program.states.digits().iter().fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(*id)));
-    let mut guards = program.rows.iter().map(|row| program.pool.cond_facts(row.guard).inputs);
-    if !guards.all(|inputs| inputs.minus(digits).is_empty()) {
-        return None;
-    }
-    let mut shares = vec![0.0; program.rows.len()];
-    for (state, row) in reach::rows_by_state(program).into_iter().enumerate() {
-        if let Some(row) = row {
-            shares[row] += weights.of(state);
-        }
-    }
-    let total: f64 = (0..program.states.count()).map(|state| weights.of(state)).sum();
-    Some(shares.into_iter().map(|share| share / total).collect())
 }

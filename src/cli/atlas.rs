@@ -4,7 +4,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::output::Sink;
-use super::{Outcome, Result};
+use super::report::Report;
+use super::{Outcome, Result, profiled};
 use crate::atlas::{self, Atlas};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture;
@@ -18,17 +19,22 @@ pub(super) struct Arguments {
     /// Where it goes; the extension (svg, png, html) says in which form
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
+    /// Profile: how often each case is taken
+    #[arg(long, value_name = "FILE")]
+    profile: Option<PathBuf>,
     /// Pixels per unit of the drawing, for PNG
     #[arg(long, default_value_t = 1.5, value_name = "FACTOR")]
     scale: f32,
 }
 
 /// Draws the atlas.
-pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let form = Form::of(&arguments.output)?;
     let program = Program::read(&arguments.table)?;
     let mut sink = Sink::create(&arguments.output)?;
-    let atlas = Atlas::new(&program, None)?;
+    let fitted = profiled::read(&program, arguments.profile.as_deref(), report)?;
+    let shares = fitted.map(|fitted| profiled::shares(&program, &fitted.profile));
+    let atlas = Atlas::new(&program, shares.as_deref())?;
     let bytes = match form {
         Form::Svg => atlas::svg(&program, &atlas).into_bytes(),
         Form::Html => atlas::page(&program, &atlas).into_bytes(),

@@ -10,7 +10,7 @@ use super::{csv_input, json_input};
 use crate::capture::{self, Capture};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::eval;
-use crate::program::{Input, InputId, Program, Value};
+use crate::program::{Domain, Input, InputId, Program, Value};
 use crate::table::{nearest, not_utf8, read_text};
 
 /// Rows that are read and evaluated together.
@@ -24,15 +24,22 @@ const MAX_BYTES: u64 = 4 << 30;
 
 /// Points of a program, one per row of the input.
 pub(super) struct Points {
-    width: usize,
+    /// A row in which nothing is given.
+    empty: Vec<Option<Value>>,
     values: Vec<Option<Value>>,
     places: Vec<Span>,
 }
 
 impl Points {
-    /// No points, of a program with this many inputs.
-    pub(super) fn new(width: usize) -> Self {
-        Self { width, values: Vec::new(), places: Vec::new() }
+    /// No points of a program.
+    pub(super) fn new(program: &Program) -> Self {
+        // What a function has no use for may be left out, and is then anything.
+        let idle = |(id, input): (InputId, &Input)| match input.domain {
+            Domain::Continuous { lo, .. } if optional(program, id) => Some(Value::Number(lo)),
+            Domain::Discrete(_) if optional(program, id) => Some(Value::Level(0)),
+            _ => None,
+        };
+        Self { empty: program.input_ids().map(idle).collect(), values: Vec::new(), places: Vec::new() }
     }
 
     /// Forgets all points.
@@ -50,19 +57,19 @@ impl Points {
     pub(super) fn push(&mut self, place: Span) -> &mut [Option<Value>] {
         self.places.push(place);
         let start = self.values.len();
-        self.values.resize(start + self.width, None);
+        self.values.extend_from_slice(&self.empty);
         &mut self.values[start..]
     }
 
     /// Takes the last point back.
     pub(super) fn pop(&mut self) {
         self.places.pop();
-        self.values.truncate(self.places.len() * self.width);
+        self.values.truncate(self.places.len() * self.empty.len());
     }
 
     /// One value per input, in the order of the program's inputs.
     pub(super) fn point(&self, index: usize) -> &[Option<Value>] {
-        &self.values[index * self.width..][..self.width]
+        &self.values[index * self.empty.len()..][..self.empty.len()]
     }
 
     /// Where the row of a point stands.
@@ -168,7 +175,7 @@ pub(super) fn read_all(program: &Program, path: &Path) -> Result<eval::Columns<f
     }
     let fail = |diagnostics| Failure { source: rows.source.clone(), diagnostics };
     let mut columns = Columns::open(program, &rows).map_err(fail)?;
-    let (mut points, mut problems) = (Points::new(program.inputs.len()), Problems::default());
+    let (mut points, mut problems) = (Points::new(program), Problems::default());
     let mut all = eval::Columns::new(program);
     while columns.next(&mut points, &mut problems) {
         for index in 0..points.len() {
@@ -229,11 +236,17 @@ pub(super) fn column(program: &Program, name: &str, span: Span) -> Result<InputI
     })
 }
 
+/// Whether an input may be left out though it is not fetched: the functions of
+/// a table may share one list of parameters, of which this one uses only some.
+fn optional(program: &Program, input: InputId) -> bool {
+    program.function.is_some() && program.idle().contains(input)
+}
+
 /// Refuses rows that leave out an input which is not fetched.
 pub(super) fn complete(program: &Program, given: impl Fn(InputId) -> bool, span: Span) -> Result<(), Diagnostic> {
     let missing: Vec<String> = program
         .input_ids()
-        .filter(|(id, input)| input.fetched.is_none() && !given(*id))
+        .filter(|(id, input)| input.fetched.is_none() && !given(*id) && !optional(program, *id))
         .map(|(_, input)| format!("`{}`", input.name))
         .collect();
     if missing.is_empty() {

@@ -109,7 +109,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let json = columns::has_extension(&arguments.output, "json");
     let sink = Sink::create(&arguments.output)?;
     let mut writer = Writer::start(&program, precision, json, sink)?;
-    let mut points = Points::new(program.inputs.len());
+    let mut points = Points::new(&program);
     let mut problems = Problems::default();
     while columns.next(&mut points, &mut problems) {
         // Rows that cannot be read have no answer; the others are judged nevertheless, to report all that is wrong.

@@ -1,4 +1,4 @@
-//! `umbrage explain`: why a table has the value it has at one point.
+//! `umbrage explain`: why a table has the value it has at one point, or what a code means.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -10,14 +10,15 @@ use super::columns;
 use super::report::{Format, Report};
 use super::{Outcome, PrecisionArgument, Result};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
-use crate::explain::{self, Explanation, Needed, Tested, text};
+use crate::explain::{self, Explanation, Needed, Tested, code, text};
 use crate::program::{InputId, Program, Value};
 use crate::show;
 
 /// Arguments of `umbrage explain`.
 #[derive(clap::Args)]
 pub(super) struct Arguments {
-    /// The table
+    /// The table, or a diagnostic code such as U0203
+    #[arg(value_name = "TABLE|CODE")]
     table: PathBuf,
     /// The function of a table of functions
     #[arg(long, value_name = "NAME")]
@@ -30,8 +31,14 @@ pub(super) struct Arguments {
     precision: PrecisionArgument,
 }
 
-/// Explains one point.
+/// Explains one point, or one code.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    if let Some(word) = arguments.table.to_str()
+        && code::is_code(word)
+        && !arguments.table.exists()
+    {
+        return explain_code(word, report);
+    }
     let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     let source = Source::new("--at", arguments.at.as_str());
     let (point, assumed) = point(&program, &source)?;
@@ -40,6 +47,25 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let text = match report.format {
         Format::Human => text::render(&program, &explanation, &assumed),
         Format::Json => format!("{}\n", object(&program, &explanation, &assumed)),
+    };
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())?;
+    out.flush()?;
+    Ok(Outcome::Clean)
+}
+
+/// Prints what a diagnostic code means.
+fn explain_code(word: &str, report: &Report) -> Result<Outcome> {
+    let Some(entry) = code::entry(word) else {
+        let error = Diagnostic::error(codes::UNKNOWN_NAME, "there is no such diagnostic code")
+            .help("the codes are listed in docs/language.md, chapter 8, and explained in docs/codes.md");
+        return Err(Failure::bare(word, error).into());
+    };
+    let text = match report.format {
+        Format::Human => entry.plain(),
+        Format::Json => {
+            format!("{}\n", json!({"code": entry.code, "meaning": entry.meaning, "text": entry.text}))
+        }
     };
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes())?;

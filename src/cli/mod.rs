@@ -21,8 +21,12 @@ mod levels;
 mod light;
 mod output;
 mod profile;
+mod profiled;
 mod report;
 mod stabilise;
+#[cfg(feature = "gpu")]
+mod tune;
+mod why;
 
 use std::io;
 use std::process::ExitCode;
@@ -63,8 +67,10 @@ enum Command {
     Diff(diff::Arguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
-    /// Say which case is taken at one point, why, and how its value comes about
+    /// Say which case is taken at one point, why, and how its value comes about; or what a code means
     Explain(explain::Arguments),
+    /// Say which inputs reach a case, and what lies around them
+    Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
     /// Light a picture by integral expansions
@@ -72,6 +78,9 @@ enum Command {
     Light(light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
+    /// Measure every plan of a table on this device, and keep the best
+    #[cfg(feature = "gpu")]
+    Tune(tune::Arguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -138,17 +147,20 @@ pub fn main() -> ExitCode {
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
         #[cfg(feature = "report")]
-        Command::Atlas(arguments) => atlas::run(&arguments),
+        Command::Atlas(arguments) => atlas::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
         #[cfg(all(feature = "render", feature = "report"))]
         Command::Light(arguments) => light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Tune(arguments) => tune::run(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,

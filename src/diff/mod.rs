@@ -116,6 +116,16 @@ pub fn frames(program: &Program, gpu: &Gpu, shapes: &[Shape], frames: &[Columns<
     Ok(comparison.report)
 }
 
+/// Compares the WGSL of proved plans with the interpreter at given points: one run per plan.
+///
+/// # Errors
+/// When an input is missing, or the device fails.
+pub fn at(program: &Program, proved: &[Proved<'_>], gpu: &Gpu, columns: &Columns<f32>) -> Result<Vec<Run>, Failure> {
+    let mut comparison = Comparison::of(program, proved, gpu, &[Entry::Key], &[Language::Wgsl])?;
+    comparison.points(columns)?;
+    Ok(comparison.report.runs)
+}
+
 /// The plans that suit a table, proved.
 fn suitable<'p>(program: &'p Program, shapes: &[Shape]) -> Result<Vec<Proved<'p>>, Failure> {
     let plans = shapes.iter().filter_map(|shape| Plan::new(program, *shape).ok());
@@ -164,11 +174,21 @@ struct Comparison<'a, 'p> {
 
 impl<'a, 'p> Comparison<'a, 'p> {
     fn new(program: &'p Program, proved: &[Proved<'p>], gpu: &'a Gpu) -> Result<Self, Failure> {
+        Self::of(program, proved, gpu, &Entry::ALL, &Language::ALL)
+    }
+
+    fn of(
+        program: &'p Program,
+        proved: &[Proved<'p>],
+        gpu: &'a Gpu,
+        entries: &[Entry],
+        languages: &[Language],
+    ) -> Result<Self, Failure> {
         let mut kernels = Vec::new();
         let mut runs = Vec::new();
         for proved in proved {
-            for entry in Entry::ALL {
-                for language in Language::ALL {
+            for entry in entries.iter().copied() {
+                for language in languages.iter().copied() {
                     kernels.push(Kernel::new(gpu, proved, entry, language)?);
                     runs.push(Run {
                         shape: proved.plan().shape,

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::eval::{Interpreter, NeedsFetch};
+use crate::eval::{Interpreter, NeedsFetch, Samples};
 use crate::program::{BinaryOp, Cond, CondId, Domain, ExprId, InputId, Node, Program, Value};
 
 /// How many points per state.
@@ -84,6 +84,10 @@ impl<'p> Points<'p> {
         for _ in 0..self.effort.lines {
             let from = self.random_point(&base);
             self.lines(&from, &mut bases);
+        }
+        if self.program.function.is_some() && state == 0 {
+            // Most of the box may be outside of the conditions that the function states.
+            bases.extend(Samples::new(self.program).take(self.effort.grid.max(16) / 2));
         }
         let mut points = Vec::with_capacity(bases.len());
         for base in bases {

@@ -9,10 +9,6 @@ use super::text::Text;
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, UnaryOp};
 
-/// Deepest nesting of a printed expression; what is deeper gets a local.
-/// Front ends recurse, and some give up at about seventy levels.
-const MAX_NESTING: usize = 24;
-
 /// Prints the steps of one function.
 pub(super) struct Body<'a, 'p> {
     pub(super) plan: &'a Plan<'p>,
@@ -24,8 +20,16 @@ pub(super) struct Body<'a, 'p> {
     pub(super) temporaries: usize,
 }
 
-/// The locals in sight: expressions that already have a name.
-type Locals = HashMap<ExprId, String>;
+/// What is in sight at a place of the code.
+#[derive(Default, Clone)]
+pub(super) struct Locals {
+    /// Expressions that have a name, or are a part of something that has.
+    pub(super) names: HashMap<ExprId, String>,
+    /// Conditions whose outcome is known here.
+    pub(super) decided: HashMap<CondId, bool>,
+    /// Arguments whose sine and cosine have a name, as a pair.
+    pub(super) pairs: HashMap<ExprId, String>,
+}
 
 impl Body<'_, '_> {
     /// Prints a step and everything after it. Every path ends in a return.
@@ -33,7 +37,8 @@ impl Body<'_, '_> {
         loop {
             match self.plan.step(at).clone() {
                 Step::Test { condition, then, other } => {
-                    let locals = self.computed_constants(&[], &[condition]);
+                    let mut locals = self.computed_constants(&[], &[condition]);
+                    self.operands(condition, &mut locals);
                     let condition = self.condition(condition, &locals);
                     let open = self.dialect.if_open(bare(&condition));
                     self.text.open(open);
@@ -95,7 +100,8 @@ impl Body<'_, '_> {
             let locals = self.computed_constants(&leaf.values, &[]);
             leaf.values.iter().map(|value| self.integer(*value, &locals)).collect()
         } else {
-            let locals = self.locals(&leaf.values);
+            let mut locals = self.computed_constants(&leaf.values, &[]);
+            self.declare(&leaf.values, &mut locals);
             leaf.values.iter().map(|value| self.expr(*value, &locals)).collect()
         };
         let components: Vec<String> = components.iter().map(|c| bare(c).to_owned()).collect();
@@ -104,43 +110,7 @@ impl Body<'_, '_> {
         self.text.line(format!("return {result};"));
     }
 
-    /// Declares locals for what the table names, what occurs more than once, and what nests too deeply.
-    fn locals(&mut self, values: &[ExprId]) -> Locals {
-        let mut uses: HashMap<ExprId, usize> = HashMap::new();
-        let mut order = Vec::new();
-        for value in values {
-            self.visit(*value, &mut uses, &mut order);
-        }
-        let mut locals = self.computed_constants(values, &[]);
-        let mut depths: HashMap<ExprId, usize> = HashMap::new();
-        let mut taken: BTreeSet<String> = locals.values().cloned().collect();
-        for expr in order {
-            let pool = &self.plan.pool;
-            let children = children(pool.node(expr));
-            let depth = 1 + children.iter().filter_map(|c| depths.get(c)).max().copied().unwrap_or(0);
-            depths.insert(expr, depth);
-            let is_result = values.contains(&expr);
-            let shared = uses.get(&expr).copied().unwrap_or(0) > 1;
-            let label = pool.label(expr).map(|label| label.replace('.', "_"));
-            let trivial = matches!(pool.node(expr), Node::Const(_) | Node::Input(_) | Node::Result);
-            if trivial || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
-                continue;
-            }
-            let name = match label {
-                Some(label) if !taken.contains(&label) && !self.names.hides(&label) => label,
-                _ => self.temporary(),
-            };
-            let value = self.expr(expr, &locals);
-            let line = self.dialect.local(&Type::Float, &name, bare(&value), self.prefix);
-            self.text.line(line);
-            taken.insert(name.clone());
-            locals.insert(expr, name);
-            depths.insert(expr, 0);
-        }
-        locals
-    }
-
-    fn temporary(&mut self) -> String {
+    pub(super) fn temporary(&mut self) -> String {
         self.temporaries += 1;
         format!("{}{}t", self.names.temporary, self.temporaries)
     }
@@ -187,11 +157,11 @@ impl Body<'_, '_> {
                 break;
             }
         }
-        let mut locals = Locals::new();
+        let mut locals = Locals::default();
         for constant in found {
-            if let Entry::Vacant(entry) = locals.entry(constant) {
+            if let Entry::Vacant(entry) = locals.names.entry(constant) {
                 let name = self.temporary();
-                let value = self.expr(constant, &Locals::new());
+                let value = self.expr(constant, &Locals::default());
                 self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
                 entry.insert(name);
             }
@@ -199,20 +169,8 @@ impl Body<'_, '_> {
         locals
     }
 
-    fn visit(&self, expr: ExprId, uses: &mut HashMap<ExprId, usize>, order: &mut Vec<ExprId>) {
-        let count = uses.entry(expr).or_insert(0);
-        *count += 1;
-        if *count > 1 {
-            return;
-        }
-        for child in children(self.plan.pool.node(expr)) {
-            self.visit(child, uses, order);
-        }
-        order.push(expr);
-    }
-
-    fn expr(&self, expr: ExprId, locals: &Locals) -> String {
-        if let Some(name) = locals.get(&expr) {
+    pub(super) fn expr(&self, expr: ExprId, locals: &Locals) -> String {
+        if let Some(name) = locals.names.get(&expr) {
             return name.clone();
         }
         let of = |e: ExprId| self.expr(e, locals);
@@ -229,6 +187,9 @@ impl Body<'_, '_> {
             Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
             Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),
             Node::Select(c, a, b) => {
+                if let Some(outcome) = locals.decided.get(&c) {
+                    return of(if *outcome { a } else { b });
+                }
                 let (a, b) = (of(a), of(b));
                 self.dialect.select(bare(&self.condition(c, locals)), bare(&a), bare(&b))
             }
@@ -247,7 +208,7 @@ impl Body<'_, '_> {
         }
     }
 
-    fn condition(&self, condition: CondId, locals: &Locals) -> String {
+    pub(super) fn condition(&self, condition: CondId, locals: &Locals) -> String {
         let joined = |parts: &[CondId], symbol: &str| {
             let parts: Vec<String> = parts.iter().map(|part| self.condition(*part, locals)).collect();
             format!("({})", parts.join(symbol))
@@ -301,7 +262,7 @@ impl Body<'_, '_> {
     }
 }
 
-fn children(node: Node) -> Vec<ExprId> {
+pub(super) fn children(node: Node) -> Vec<ExprId> {
     match node {
         Node::Const(_) | Node::Input(_) | Node::Result => Vec::new(),
         Node::Unary(_, a) => vec![a],

@@ -114,6 +114,10 @@ pub(super) trait Dialect {
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String;
     /// Declares a local constant.
     fn local(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String;
+    /// Declares a number that is assigned later.
+    fn number_later(&self, name: &str) -> String {
+        format!("float {name};")
+    }
     /// The first line of a conditional.
     fn if_open(&self, condition: &str) -> String {
         format!("if ({condition}) {{")

@@ -134,7 +134,8 @@ pub fn glsl_library(proved: &Proved<'_>, library: &str, version: GlslVersion) ->
     out + library + "\nvoid main() {}\n"
 }
 
-fn reads_lookup(proved: &Proved<'_>) -> bool {
+/// Whether a plan reads a lookup that the host has to supply.
+pub fn reads_lookup(proved: &Proved<'_>) -> bool {
     proved.plan().shape == Shape::Switch(LookupPlace::Buffer)
 }
 
@@ -253,7 +254,7 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
 
 /// Names the buffers, which stand as `$plain` and so on, other than anything of the table.
 /// Those of functions, several of which share a module, are also told apart by its name.
-fn name_buffers(program: &Program, prefix: &Prefix, text: &str) -> String {
+pub(super) fn name_buffers(program: &Program, prefix: &Prefix, text: &str) -> String {
     let start = if prefix.lower.starts_with("umbrage") { "columns_" } else { "umbrage_" };
     match &program.function {
         Some(function) => text.replace('$', &format!("{start}{}_", function.name)),
@@ -286,27 +287,19 @@ fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
 }
 
 fn store(out: &mut String, program: &Program, layout: &Layout, to_bits: &str) {
-    let mut put = |index: usize, value: String| {
-        let _ = writeln!(out, "    $out[row * {}u + {index}u] = {value};", layout.out);
-    };
-    put(0, "result.case_id".to_owned());
-    match &program.output {
-        Output::Number => put(1, format!("{to_bits}(result.value)")),
-        Output::Enumeration(_) => put(1, "result.value".to_owned()),
-        Output::Record(names) => {
-            for (i, name) in names.iter().enumerate() {
-                put(1 + i, format!("{to_bits}(result.value.{name})"));
-            }
-        }
-        Output::Vector(size) => {
-            for i in 0..*size {
-                put(1 + i, format!("{to_bits}(result.value[{i}])"));
-            }
-        }
-        Output::List { max, .. } => {
-            for i in 0..=*max {
-                put(1 + i, format!("result.value[{i}]"));
-            }
-        }
+    let words = ["result.case_id".to_owned()].into_iter().chain(value_words(&program.output, "result.value", to_bits));
+    for (index, word) in words.enumerate() {
+        let _ = writeln!(out, "    $out[row * {}u + {index}u] = {word};", layout.out);
+    }
+}
+
+/// The components of a value, each as a word.
+pub(super) fn value_words(output: &Output, value: &str, to_bits: &str) -> Vec<String> {
+    match output {
+        Output::Number => vec![format!("{to_bits}({value})")],
+        Output::Enumeration(_) => vec![value.to_owned()],
+        Output::Record(names) => names.iter().map(|name| format!("{to_bits}({value}.{name})")).collect(),
+        Output::Vector(size) => (0..*size).map(|i| format!("{to_bits}({value}[{i}])")).collect(),
+        Output::List { max, .. } => (0..=*max).map(|i| format!("{value}[{i}]")).collect(),
     }
 }

@@ -13,7 +13,9 @@ mod module;
 mod names;
 mod rust;
 mod text;
+pub mod timed;
 mod validate;
+mod values;
 mod wgsl;
 
 use crate::diag::Failure;

@@ -78,6 +78,10 @@ impl Dialect for Rust {
         format!("let {name}: {} = {value};", self.ty(ty, prefix))
     }
 
+    fn number_later(&self, name: &str) -> String {
+        format!("let {name}: f32;")
+    }
+
     fn if_open(&self, condition: &str) -> String {
         format!("if {condition} {{")
     }

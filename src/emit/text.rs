@@ -40,6 +40,12 @@ impl Text {
         self.indent += 1;
     }
 
+    /// Closes a block and opens that of the other case.
+    pub(super) fn otherwise(&mut self) {
+        self.indent = self.indent.saturating_sub(1);
+        self.open("} else {");
+    }
+
     /// Closes a block.
     pub(super) fn close(&mut self) {
         self.indent = self.indent.saturating_sub(1);

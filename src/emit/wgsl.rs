@@ -63,6 +63,10 @@ impl Dialect for Wgsl {
         format!("let {name} = {value};")
     }
 
+    fn number_later(&self, name: &str) -> String {
+        format!("var {name}: f32;")
+    }
+
     fn case_open(&self, values: &[u32]) -> String {
         let values: Vec<String> = values.iter().map(|v| self.uint(*v)).collect();
         format!("case {}: {{", values.join(", "))

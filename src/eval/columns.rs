@@ -250,6 +250,33 @@ impl<T: Real> Columns<T> {
         }
     }
 
+    /// Appends the points of other columns.
+    ///
+    /// # Panics
+    /// If they were made for a program with other inputs.
+    pub fn append(&mut self, other: &Self) {
+        assert!(self.counts == other.counts, "columns of another program");
+        for (mine, theirs) in self.columns.iter_mut().zip(&other.columns) {
+            match (mine, theirs) {
+                (Column::Levels(mine), Column::Levels(theirs)) => mine.extend_from_slice(theirs),
+                (Column::Numbers { values, present }, Column::Numbers { values: more, present: their_presence }) => {
+                    if present.is_some() || their_presence.is_some() {
+                        let all = present.get_or_insert_with(|| vec![true; values.len()]);
+                        match their_presence {
+                            Some(presence) => all.extend_from_slice(presence),
+                            None => all.resize(all.len() + more.len(), true),
+                        }
+                    }
+                    values.extend_from_slice(more);
+                }
+                // Columns of one input are of one kind.
+                _ => {}
+            }
+        }
+        self.len += other.len;
+        self.gaps = self.gaps.or(other.gaps);
+    }
+
     /// How many points there are.
     pub fn len(&self) -> usize {
         self.len

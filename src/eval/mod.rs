@@ -15,6 +15,7 @@ mod interval;
 #[cfg(feature = "precise")]
 mod precise;
 mod residual;
+mod sample;
 mod scalar;
 
 pub use admissible::{Admissible, IntervalInterpreter, Possible};
@@ -25,4 +26,5 @@ pub use interval::Interval;
 pub(crate) use precise::NOTHING;
 #[cfg(feature = "precise")]
 pub use precise::{Precise, Unknown};
+pub use sample::Samples;
 pub use scalar::{Interpreter, NeedsFetch, Outcome};

@@ -5,9 +5,11 @@
 //! decides nothing itself: if it disagreed with the interpreter it would be
 //! wrong, not another opinion. [`text`] turns it into something to read.
 
+pub mod code;
 pub mod reach;
 mod steps;
 pub mod text;
+pub mod why;
 
 use crate::eval::{Interpreter, NeedsFetch};
 use crate::program::print::Printer;

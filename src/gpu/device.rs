@@ -119,6 +119,11 @@ impl Gpu {
         Ok(Self { device, queue, info, trouble })
     }
 
+    /// The adapter's name.
+    pub fn name(&self) -> &str {
+        &self.info.name
+    }
+
     /// The adapter in words: name, kind, driver.
     pub fn describe(&self) -> String {
         describe(&self.info)

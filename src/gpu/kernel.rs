@@ -1,15 +1,16 @@
 //! A table as a compute pipeline.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use wgpu::util::DeviceExt;
 
 use super::Gpu;
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::harness::{COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, wgsl_columns};
+use crate::emit::harness::{COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, reads_lookup, wgsl_columns};
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
 use crate::eval::Columns;
-use crate::plan::{KeyLayout, LookupPlace, Proved, Shape};
+use crate::plan::{KeyLayout, Proved};
 use crate::program::{Domain, InputId, InputSet, LevelKind, Program};
 
 /// Most rows of one dispatch.
@@ -78,7 +79,7 @@ impl<'a, 'p> Kernel<'a, 'p> {
             source: wgpu::ShaderSource::Naga(Cow::Owned(module.module)),
         });
         let layout = Layout::new(program, entry);
-        let has_lookup = proved.plan().shape == Shape::Switch(LookupPlace::Buffer);
+        let has_lookup = reads_lookup(proved);
         // Written down rather than derived from the shader, which may leave out what no case uses.
         let mut bindings = vec![(0, true), (2, false)];
         bindings.extend((layout.fetched > 0).then_some((1, true)));
@@ -151,8 +152,9 @@ impl<'a, 'p> Kernel<'a, 'p> {
                 usage: wgpu::BufferUsages::STORAGE,
             })
         };
-        let plain = storage("plain", &self.plain_words(columns, start, end));
-        let fetched = (self.layout.fetched > 0).then(|| storage("fetched", &self.fetched_words(columns, start, end)));
+        let plain = storage("plain", &plain_words(self.program, &self.key, self.entry, columns, start..end));
+        let fetched =
+            (self.layout.fetched > 0).then(|| storage("fetched", &fetched_words(self.program, columns, start..end)));
         let size = (4 * count * self.layout.out) as u64;
         let buffer = |label: &str, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -192,49 +194,6 @@ impl<'a, 'p> Kernel<'a, 'p> {
         gpu.read_back(&back, |bytes| self.read(bytemuck::cast_slice(bytes), outputs))
     }
 
-    fn plain_inputs(&self) -> impl Iterator<Item = (InputId, &Domain)> {
-        self.program.input_ids().filter(|(_, input)| input.fetched.is_none()).map(|(id, input)| (id, &input.domain))
-    }
-
-    fn plain_words(&self, columns: &Columns<f32>, start: usize, end: usize) -> Vec<u32> {
-        let mut words = Vec::with_capacity(1 + (end - start) * self.layout.plain);
-        words.push((end - start) as u32);
-        let inputs: Vec<(InputId, &Domain)> = self.plain_inputs().collect();
-        for row in start..end {
-            if self.entry == Entry::Key {
-                words.push(self.key.pack(|input| columns.levels(input)[row]));
-            }
-            for (input, domain) in &inputs {
-                match domain {
-                    Domain::Continuous { .. } => words.push(columns.numbers(*input)[row].to_bits()),
-                    Domain::Discrete(_) if self.entry == Entry::Key => {}
-                    Domain::Discrete(levels) => {
-                        let level = columns.levels(*input)[row];
-                        words.push(match levels.kind {
-                            LevelKind::Bool => u32::from(level),
-                            _ => (levels.codes[usize::from(level)] as f32).to_bits(),
-                        });
-                    }
-                }
-            }
-        }
-        words
-    }
-
-    fn fetched_words(&self, columns: &Columns<f32>, start: usize, end: usize) -> Vec<u32> {
-        let inputs: Vec<(InputId, bool)> =
-            self.program.fetched.iter().map(|input| (input, self.program.levels(input).is_some())).collect();
-        let mut words = Vec::with_capacity((end - start) * self.layout.fetched);
-        for row in start..end {
-            words.extend(inputs.iter().map(|(input, discrete)| match discrete {
-                true => u32::from(columns.levels(*input)[row]),
-                false if columns.is_present(row, *input) => columns.numbers(*input)[row].to_bits(),
-                false => f32::NAN.to_bits(),
-            }));
-        }
-        words
-    }
-
     fn read(&self, words: &[u32], outputs: &mut Outputs) {
         let rows: std::collections::HashMap<u32, usize> =
             self.program.rows.iter().enumerate().map(|(index, row)| (row.id, index)).collect();
@@ -260,7 +219,55 @@ impl<'a, 'p> Kernel<'a, 'p> {
     }
 }
 
-fn storage_binding(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
+/// The number of rows, then the inputs that are not fetched, as [`Layout`] says.
+pub(super) fn plain_words(
+    program: &Program,
+    key: &KeyLayout,
+    entry: Entry,
+    columns: &Columns<f32>,
+    rows: Range<usize>,
+) -> Vec<u32> {
+    let plain = program.input_ids().filter(|(_, input)| input.fetched.is_none());
+    let inputs: Vec<(InputId, &Domain)> = plain.map(|(id, input)| (id, &input.domain)).collect();
+    let mut words = Vec::with_capacity(1 + rows.len() * (1 + inputs.len()));
+    words.push(rows.len() as u32);
+    for row in rows {
+        if entry == Entry::Key {
+            words.push(key.pack(|input| columns.levels(input)[row]));
+        }
+        for (input, domain) in &inputs {
+            match domain {
+                Domain::Continuous { .. } => words.push(columns.numbers(*input)[row].to_bits()),
+                Domain::Discrete(_) if entry == Entry::Key => {}
+                Domain::Discrete(levels) => {
+                    let level = columns.levels(*input)[row];
+                    words.push(match levels.kind {
+                        LevelKind::Bool => u32::from(level),
+                        _ => (levels.codes[usize::from(level)] as f32).to_bits(),
+                    });
+                }
+            }
+        }
+    }
+    words
+}
+
+/// The fetched inputs, as [`Layout`] says.
+pub(super) fn fetched_words(program: &Program, columns: &Columns<f32>, rows: Range<usize>) -> Vec<u32> {
+    let inputs: Vec<(InputId, bool)> =
+        program.fetched.iter().map(|input| (input, program.levels(input).is_some())).collect();
+    let mut words = Vec::with_capacity(rows.len() * inputs.len());
+    for row in rows {
+        words.extend(inputs.iter().map(|(input, discrete)| match discrete {
+            true => u32::from(columns.levels(*input)[row]),
+            false if columns.is_present(row, *input) => columns.numbers(*input)[row].to_bits(),
+            false => f32::NAN.to_bits(),
+        }));
+    }
+    words
+}
+
+pub(super) fn storage_binding(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,

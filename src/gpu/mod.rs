@@ -3,6 +3,7 @@
 //! This is the only module that names wgpu. Errors say what to do: which
 //! driver to install when there is no adapter, what was lost when a device is.
 
+pub mod bench;
 mod device;
 mod kernel;
 pub mod timing;

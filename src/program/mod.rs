@@ -340,6 +340,16 @@ impl Program {
         self.inputs.iter().position(|i| i.name == name).map(InputId::new)
     }
 
+    /// The inputs that no result depends on.
+    pub fn idle(&self) -> InputSet {
+        let conditions = self.rows.iter().flat_map(|r| r.lines.iter().map(|l| l.condition).chain([r.guard]));
+        let values = self.rows.iter().flat_map(|r| r.lines.iter().flat_map(|l| &l.values)).chain(&self.default);
+        let used = conditions.map(|c| self.pool.cond_facts(c).inputs);
+        let used = used.chain(values.map(|e| self.pool.expr_facts(*e).inputs)).fold(InputSet::default(), InputSet::or);
+        let all = self.input_ids().fold(InputSet::default(), |all, (id, _)| all.or(InputSet::one(id)));
+        all.minus(used)
+    }
+
     /// All inputs with their ids.
     pub fn input_ids(&self) -> impl Iterator<Item = (InputId, &Input)> {
         self.inputs.iter().enumerate().map(|(i, input)| (InputId::new(i), input))

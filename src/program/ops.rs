@@ -245,9 +245,6 @@ mod tests {
         }
         assert!(absolute < 1e-7, "{absolute:e}");
         assert!(relative < 1.2e-7, "{relative:e}");
-        for huge in [1e30, f32::MAX] {
-            assert!(!f32::unary(UnaryOp::PortableSin, huge).is_nan() || huge == f32::MAX);
-        }
     }
 
     #[test]

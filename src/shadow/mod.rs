@@ -13,6 +13,7 @@
 //! cases can be compared pixel by pixel.
 
 mod case_free;
+pub mod count;
 pub mod cpu;
 mod frame;
 #[cfg(feature = "gpu")]

@@ -1,6 +1,8 @@
 //! `umbrage profile`: counts how often each state of a table occurs.
 
 mod compare;
+#[cfg(feature = "render")]
+mod scenes;
 mod show;
 
 use std::collections::BTreeMap;
@@ -36,7 +38,28 @@ enum Command {
 
 #[derive(clap::Args)]
 struct Count {
-    /// The table
+    /// Scenes to render and count: names of built-in ones, or files
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "SCENE", value_delimiter = ',', conflicts_with = "frames")]
+    scene: Vec<String>,
+    /// The technique to render with: smsr, rsmss, rpcf
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "TECHNIQUE", default_value = "rsmss", value_parser = scenes::parse_technique)]
+    technique: crate::shadow::Technique,
+    /// Size of the picture
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "960x540", value_parser = scenes::parse_size)]
+    size: (u32, u32),
+    /// Texels per side of the shadow map
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "TEXELS", default_value = "1024", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    shadow_map: u32,
+    /// Longest run that is revectorised, in texels
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "TEXELS", default_value_t = crate::shadow::Settings::default().search_limit,
+          value_parser = clap::value_parser!(u32).range(1..=4096))]
+    search_limit: u32,
+    /// The table [default for scenes: that of the technique]
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
     /// Captured inputs to count: *.bin, or CSV or *.json as `eval` reads it; each is a scene of its own
@@ -71,9 +94,15 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 fn count(arguments: &Count, report: &Report) -> Result<Outcome> {
+    #[cfg(feature = "render")]
+    if !arguments.scene.is_empty() {
+        let (program, profile) = scenes::run(arguments)?;
+        return finish(&program, profile, &arguments.output, report);
+    }
     let (Some(table), false) = (&arguments.table, arguments.frames.is_empty()) else {
         let error = Diagnostic::error(codes::NOT_APPLICABLE, "there is nothing to count")
-            .help("name a table and captured inputs: --table tables/rsmss.ron --frames frame.bin")
+            .help("name scenes: --scene fence,lattice --technique rsmss")
+            .help("or a table and captured inputs: --table tables/rsmss.ron --frames frame.bin")
             .help("or say what to do with profiles that exist: merge, show, diff");
         return Err(Failure::bare("", error).into());
     };

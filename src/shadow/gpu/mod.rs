@@ -12,10 +12,12 @@
 
 pub mod bench;
 mod frame;
+mod raster;
 mod shader;
 mod source;
 
 pub use frame::GpuFrame;
+pub use raster::{GpuPicture, Raster};
 pub use shader::{Bound, Costs, Shader};
 pub use source::{Output, Reads, Skeleton, source};
 

@@ -1,0 +1,59 @@
+//! Counting what scenes need: they are rendered, and every evaluation of the table is counted.
+
+use super::Count;
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::profile::Profile;
+use crate::program::Program;
+use crate::shadow::count::count;
+use crate::shadow::cpu::{self, Frame};
+use crate::shadow::passes::{Bias, Stage};
+use crate::shadow::scene::Scene;
+use crate::shadow::{Settings, Technique};
+
+/// Largest side of a picture or a shadow map.
+const MAX_SIDE: u32 = 16384;
+
+/// Renders scenes and counts.
+pub(super) fn run(arguments: &Count) -> Result<(Program, Profile), Failure> {
+    let technique = arguments.technique;
+    let Some(own) = cpu::table(technique)? else {
+        let with: Vec<&str> = Technique::ALL.into_iter().filter(|t| t.table().is_some()).map(Technique::name).collect();
+        let error = Diagnostic::error(codes::NOT_APPLICABLE, format!("`{technique}` evaluates no table"));
+        return Err(Failure::bare("", error.help(format!("techniques with a table are: {}", with.join(", ")))));
+    };
+    let program = match &arguments.table {
+        None => own,
+        Some(path) => Program::read(path)?,
+    };
+    let mut scenes = Vec::new();
+    for name in &arguments.scene {
+        scenes.push((name, Scene::open(name)?));
+    }
+    let mut profile = Profile::new(&program);
+    let (width, height) = arguments.size;
+    for (name, scene) in &scenes {
+        let stage = Stage::new(scene);
+        let map = stage.shadow_map(arguments.shadow_map, Bias::default());
+        let receivers = stage.receivers(&stage.picture(width, height), arguments.shadow_map);
+        let settings = Settings { search_limit: arguments.search_limit, ..Settings::default() };
+        let frame = Frame { map: &map, receivers: &receivers, settings: &settings };
+        let name = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        profile.scenes.push(count(&program, &name, technique, frame)?);
+    }
+    Ok((program, profile))
+}
+
+/// Reads a size such as 960x540.
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+    let size = text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?)));
+    size.ok_or_else(|| format!("expected WIDTHxHEIGHT, for instance 960x540; a side has 1 to {MAX_SIDE} pixels"))
+}
+
+/// Reads the name of a technique.
+pub(super) fn parse_technique(name: &str) -> Result<Technique, String> {
+    Technique::from_name(name).ok_or_else(|| {
+        let known: Vec<&str> = Technique::ALL.into_iter().map(Technique::name).collect();
+        format!("there is no such technique; the techniques are: {}", known.join(", "))
+    })
+}

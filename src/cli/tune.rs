@@ -1,0 +1,241 @@
+//! `umbrage tune`: measures every plan of a table here, and keeps the best.
+
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde_json::json;
+
+use super::output::Sink;
+use super::report::{Format, Report};
+use super::{Outcome, Result, columns, parse_shape, profile};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::gpu::timing::{Clock, Protocol};
+use crate::gpu::{AdapterChoice, Gpu};
+use crate::plan::Shape;
+use crate::profile::fit;
+use crate::program::Program;
+use crate::tune::{self, Kind, Options, Tuning};
+use crate::tuned::Tuned;
+
+/// Arguments of `umbrage tune`.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// The table
+    table: PathBuf,
+    /// Profiles of the table: what plans are made for
+    #[arg(long, required = true, value_name = "FILE", value_delimiter = ',')]
+    profile: Vec<PathBuf>,
+    /// Captured inputs to measure with: *.bin, or CSV or *.json as `eval` reads it [default: states drawn as the
+    /// profile says]
+    #[arg(long, value_name = "FILE", value_delimiter = ',')]
+    frames: Vec<PathBuf>,
+    /// The adapter: any, software, hardware, or a part of its name
+    #[arg(long, value_name = "WHICH", default_value = "any")]
+    adapter: AdapterChoice,
+    /// Code shapes to try [default: all]
+    #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
+    plan: Vec<Shape>,
+    /// Try plans, too, that rely on the table's assumptions
+    #[arg(long)]
+    assume: bool,
+    /// Rows of inputs of each kind
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().rows,
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1 << 22))]
+    rows: usize,
+    /// Measurements of each plan with each kind of inputs
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().protocol.rounds,
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
+    rounds: usize,
+    /// Rows that a thread evaluates: 1 is a pass over memory, more show what plans cost where inputs are at hand
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().rows_of_thread,
+          value_parser = clap::value_parser!(u32).range(1..=1024))]
+    rows_of_thread: u32,
+    /// How often all rows are evaluated in one measurement; more for fast devices
+    #[arg(long, value_name = "COUNT", default_value_t = Options::default().repeats,
+          value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    repeats: u32,
+    /// Measure with the wall clock even if the device has timestamps
+    #[arg(long)]
+    wall_clock: bool,
+    /// Directory of the choices, one file per device
+    #[arg(long, short, value_name = "DIR", default_value = "tuned")]
+    output: PathBuf,
+    /// Where the report goes, an HTML page [default: none]
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+}
+
+/// Measures, shows the ranking, and keeps the choice.
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    let program = Program::read(&arguments.table)?;
+    let name: Vec<String> = arguments.profile.iter().map(|path| path.to_string_lossy().replace('\\', "/")).collect();
+    let name = name.join(", ");
+    let fitted = fit(&program, profile::read_all(&arguments.profile, &[])?, &name)?;
+    let mut outcome = Outcome::Clean;
+    if let Some(warning) = &fitted.warning {
+        report.failure(&Failure::bare("", warning.clone()));
+        outcome = Outcome::Findings;
+    }
+    if arguments.assume && profile::excluded(&program, &fitted, report) {
+        return Ok(Outcome::Failed);
+    }
+    let weights = fitted.weights(&program, &name)?;
+    let mut frames = None;
+    for file in &arguments.frames {
+        let read = columns::read_all(&program, file)?;
+        match &mut frames {
+            None => frames = Some(read),
+            Some(all) => all.append(&read),
+        }
+    }
+    let defaults = Options::default();
+    let options = Options {
+        shapes: if arguments.plan.is_empty() { defaults.shapes } else { arguments.plan.clone() },
+        assume: arguments.assume,
+        rows: arguments.rows.next_multiple_of(arguments.rows_of_thread as usize),
+        rows_of_thread: arguments.rows_of_thread,
+        repeats: arguments.repeats,
+        protocol: Protocol { rounds: arguments.rounds, ..defaults.protocol },
+        wall_clock: arguments.wall_clock,
+    };
+    let gpu = Gpu::open(&arguments.adapter)?;
+    let path = Tuned::path(&arguments.output, gpu.name());
+    let kept = Tuned::read(&path)?.unwrap_or_else(|| Tuned::new(gpu.name()));
+    let bar = progress();
+    let result = tune::tune(&program, fitted, &weights, frames.as_ref(), &gpu, &options, |doing| {
+        bar.set_message(doing.to_owned());
+    });
+    bar.finish_and_clear();
+    let tuning = result?;
+
+    // Both files are complete before either is visible; whatever interrupts leaves the old ones.
+    let mut tuned = kept;
+    tuned.set(tuning.choice(&program, &weights));
+    std::fs::create_dir_all(&arguments.output).map_err(|error| {
+        let message = format!("cannot be made: {}", crate::table::io_reason(&error));
+        let error = Diagnostic::error(codes::UNWRITABLE, message).help("choose another directory with `--output`");
+        Failure::bare(arguments.output.to_string_lossy(), error)
+    })?;
+    let mut sink = Sink::create(&path)?;
+    sink.write_all(tuned.to_ron().as_bytes()).map_err(|error| sink.failure(&error))?;
+    let page = arguments.report.as_ref().map(|path| page(&program, &tuning, &weights, path)).transpose()?;
+    sink.finish()?;
+    page.map_or(Ok(()), Sink::finish)?;
+
+    match report.format {
+        Format::Human => human(&tuning, &path)?,
+        Format::Json => writeln!(io::stdout().lock(), "{}", object(&tuning))?,
+    }
+    if !tuning.wrong.is_empty() {
+        outcome = Outcome::Findings;
+    }
+    Ok(outcome)
+}
+
+fn progress() -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    if !io::stderr().is_terminal() {
+        bar.set_draw_target(ProgressDrawTarget::hidden());
+    }
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} [{elapsed}]") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
+#[cfg(feature = "report")]
+fn page(
+    program: &Program,
+    tuning: &Tuning<'_>,
+    weights: &crate::plan::Weights,
+    path: &std::path::Path,
+) -> std::result::Result<Sink, Failure> {
+    let mut sink = Sink::create(path)?;
+    let text = tune::page(program, tuning, weights);
+    sink.write_all(text.as_bytes()).map_err(|error| sink.failure(&error))?;
+    Ok(sink)
+}
+
+#[cfg(not(feature = "report"))]
+fn page(
+    _: &Program,
+    _: &Tuning<'_>,
+    _: &crate::plan::Weights,
+    path: &std::path::Path,
+) -> std::result::Result<Sink, Failure> {
+    let error = Diagnostic::error(codes::UNWRITABLE, "cannot be written: this build has no reports");
+    Err(Failure::bare(path.to_string_lossy(), error.help("build umbrage with the feature `report`")))
+}
+
+fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "device: {}", tuning.device)?;
+    writeln!(out, "measured with {}", tuning.method())?;
+    if tuning.clock == Clock::Wall && !tuning.options.wall_clock {
+        writeln!(out, "the device has no timestamp queries: times contain the way to the device and back")?;
+    }
+    for (place, kind) in Kind::ALL.into_iter().enumerate() {
+        let floor = 1e6 * tuning.floor[place].median();
+        writeln!(out, "\n{kind} inputs; reading and writing them alone takes {floor:.1} us")?;
+        writeln!(out, "  plan                       us      +-   to ladder   to floor")?;
+        for line in tuning.ranking(kind) {
+            let name = tuning.plans[line.plan].candidate.name();
+            let noise = if line.plan != 0 && !line.differs { "   within noise of the ladder" } else { "" };
+            writeln!(
+                out,
+                "  {name:<20} {:>9.1} {:>7.1} {:>11.3} {:>10.2}{noise}",
+                line.us, line.uncertainty, line.vs_ladder, line.vs_floor
+            )?;
+        }
+    }
+    for (candidate, reason) in &tuning.skipped {
+        writeln!(out, "left out: {}: {reason}", candidate.name())?;
+    }
+    for (candidate, reason) in &tuning.wrong {
+        writeln!(out, "wrong on this device, left out: {}: {reason}", candidate.name())?;
+    }
+    let chosen = &tuning.plans[tuning.chosen];
+    let proof = chosen.proved.proof();
+    writeln!(out, "\nchosen: {}, proved {proof}", chosen.candidate.name())?;
+    if !tuning.is_clear() {
+        writeln!(out, "it does not differ from the ladder as written by more than noise")?;
+    }
+    writeln!(out, "kept in {}", path.display())?;
+    out.flush()?;
+    Ok(())
+}
+
+fn object(tuning: &Tuning<'_>) -> serde_json::Value {
+    let floor: serde_json::Map<String, serde_json::Value> = Kind::ALL
+        .into_iter()
+        .zip(&tuning.floor)
+        .map(|(kind, times)| (kind.name().to_owned(), json!(1e6 * times.median())))
+        .collect();
+    let lines = Kind::ALL.into_iter().flat_map(|kind| tuning.ranking(kind));
+    let plans = lines.map(|line| {
+        json!({
+            "name": tuning.plans[line.plan].candidate.name(),
+            "input": line.input.name(),
+            "us": line.us,
+            "vs_ladder": line.vs_ladder,
+            "vs_floor": line.vs_floor,
+            "differs": line.differs,
+        })
+    });
+    let left_out = |all: &[(tune::Candidate, String)]| {
+        let one = |(candidate, reason): &(tune::Candidate, String)| json!({"name": candidate.name(), "reason": reason});
+        all.iter().map(one).collect::<Vec<_>>()
+    };
+    json!({
+        "device": tuning.device,
+        "floor": floor,
+        "plans": plans.collect::<Vec<_>>(),
+        "clock": tuning.clock.to_string(),
+        "chosen": tuning.plans[tuning.chosen].candidate.name(),
+        "skipped": left_out(&tuning.skipped),
+        "wrong": left_out(&tuning.wrong),
+    })
+}
