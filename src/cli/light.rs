@@ -38,10 +38,10 @@ pub(super) struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Width and height of the picture
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "320x180", value_parser = size)]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "160x90", value_parser = size)]
     size: (u32, u32),
     /// Largest error of the border of visibility and of the lobes in a cell: e_r
-    #[arg(long, value_name = "RADIANS", default_value = "0.05", value_parser = threshold)]
+    #[arg(long, value_name = "RADIANS", default_value = "0.1", value_parser = threshold)]
     threshold: f64,
     /// What evaluates the tables
     #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]

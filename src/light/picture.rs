@@ -7,17 +7,15 @@ use image::{Rgb, RgbImage};
 use rayon::prelude::*;
 
 use super::cells::{Division, Edge, divide};
+use super::tables::Machine;
 use super::{Executor, Lobe, Scene, Settings, Surface, Tables};
 use crate::diag::Failure;
 
 /// Angle of view from bottom to top.
 const VIEW: f64 = 0.7;
 
-/// Points that are shaded together: enough to fill the columns of the batch interpreter.
-const TOGETHER: usize = 64;
-
-/// Points whose edges go to a device together.
-const PORTION: usize = 4096;
+/// Points whose edges are evaluated together.
+const PORTION: usize = 2048;
 
 /// What is computed for a picture, row by row.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,20 +50,29 @@ pub fn surfaces(scene: &Scene, width: u32, height: u32) -> Vec<Option<Surface>> 
 ///
 /// # Errors
 /// If a table does not have the functions that it should, or a device fails.
-pub fn shade(
+pub fn shade<'t>(
     scene: &Scene,
-    tables: &Tables,
-    executor: &Executor<'_>,
+    tables: &'t Tables,
+    executor: &Executor<'t>,
     settings: &Settings,
     width: u32,
     height: u32,
 ) -> Result<Shaded, Failure> {
     let surfaces = surfaces(scene, width, height);
-    let some = |surfaces: &[Option<Surface>]| shade_some(scene, tables, executor, settings, surfaces);
+    let some = |surfaces: &[Option<Surface>]| -> Result<Vec<Pixel>, Failure> {
+        let mut machine = executor.machine(tables);
+        let portions =
+            surfaces.chunks(PORTION).map(|portion| shade_some(scene, tables, &mut machine, settings, portion));
+        Ok(portions.collect::<Result<Vec<_>, Failure>>()?.into_iter().flatten().collect())
+    };
     let parts: Vec<Vec<Pixel>> = match executor {
-        Executor::Interpreter => surfaces.par_chunks(TOGETHER).map(some).collect::<Result<_, Failure>>()?,
-        // A device takes its work in large portions, one after the other.
-        Executor::Shaders(..) => surfaces.chunks(PORTION).map(some).collect::<Result<_, Failure>>()?,
+        Executor::Interpreter => {
+            // A part for each thread, as every interpreter has to specialise the tables for itself.
+            let part = surfaces.len().div_ceil(rayon::current_num_threads()).max(1);
+            surfaces.par_chunks(part).map(some).collect::<Result<_, Failure>>()?
+        }
+        // A device takes its work in portions, one after the other.
+        Executor::Shaders(..) => vec![some(&surfaces)?],
     };
     let all: Vec<Pixel> = parts.into_iter().flatten().collect();
     Ok(Shaded {
@@ -88,7 +95,7 @@ struct Pixel {
 fn shade_some(
     scene: &Scene,
     tables: &Tables,
-    executor: &Executor<'_>,
+    machine: &mut Machine<'_, '_>,
     settings: &Settings,
     surfaces: &[Option<Surface>],
 ) -> Result<Vec<Pixel>, Failure> {
@@ -106,8 +113,8 @@ fn shade_some(
         all.cells.extend(division.cells);
         ends.push((all.cells.len(), all.edges.len()));
     }
-    let lines = tables.lines(executor, &all.cells, &scene.lobes)?;
-    let moments = tables.moments(executor, &all.edges)?;
+    let lines = tables.lines(machine, &all.cells, &scene.lobes)?;
+    let moments = tables.moments(machine, &all.edges)?;
     let mut result = Vec::with_capacity(surfaces.len());
     let (mut cell, mut edge) = (0, 0);
     for (surface, (last_cell, last_edge)) in surfaces.iter().zip(ends) {

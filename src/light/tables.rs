@@ -101,27 +101,32 @@ impl Tables {
     }
 
     /// The linear approximations of all lobes in all cells, cell by cell.
-    pub(super) fn lines(&self, executor: &Executor<'_>, cells: &[Cell], lobes: &[Lobe]) -> Result<Vec<Line>, Failure> {
+    pub(super) fn lines(
+        &self,
+        machine: &mut Machine<'_, '_>,
+        cells: &[Cell],
+        lobes: &[Lobe],
+    ) -> Result<Vec<Line>, Failure> {
         // The largest value is 1; colours are applied later.
         let rows = cells
             .iter()
             .flat_map(|cell| lobes.iter().zip(&cell.ranges).map(|(lobe, (a, b))| [1.0, lobe.sharpness, *a, *b]));
         let columns = Self::columns(&self.alpha, ["mu", "lambda", "a", "b"], rows)?;
-        let alpha = executor.evaluate(self, Which::Alpha, &columns)?;
-        let beta = executor.evaluate(self, Which::Beta, &columns)?;
+        let alpha = machine.evaluate(Which::Alpha, &columns)?;
+        let beta = machine.evaluate(Which::Beta, &columns)?;
         let wide = |column: &[f32]| column.iter().map(|v| f64::from(*v)).collect::<Vec<f64>>();
         Ok(wide(&alpha[0]).into_iter().zip(wide(&beta[0])).collect())
     }
 
     /// The moments of all edges.
-    pub(super) fn moments(&self, executor: &Executor<'_>, edges: &[Edge]) -> Result<Vec<Moments>, Failure> {
+    pub(super) fn moments(&self, machine: &mut Machine<'_, '_>, edges: &[Edge]) -> Result<Vec<Moments>, Failure> {
         let names = ["phi0", "phi1", "theta0", "theta_a", "theta_b"];
         let rows = edges.iter().map(|edge| {
             let [a, b] = edge.ends;
             [a.x, b.x, edge.theta, a.y, b.y]
         });
         let columns = Self::columns(&self.moments, names, rows)?;
-        let results = executor.evaluate(self, Which::Moments, &columns)?;
+        let results = machine.evaluate(Which::Moments, &columns)?;
         let number = |which: usize, edge: usize| f64::from(results[self.order[which]][edge]);
         Ok((0..edges.len())
             .map(|edge| Moments {
@@ -131,6 +136,7 @@ impl Tables {
             .collect())
     }
 
+    #[cfg(feature = "gpu")]
     fn program(&self, which: Which) -> &Program {
         match which {
             Which::Moments => &self.moments,
@@ -183,20 +189,50 @@ pub enum Executor<'t> {
     Shaders(std::convert::Infallible, std::marker::PhantomData<&'t ()>),
 }
 
-impl Executor<'_> {
-    /// One column per number that the function returns.
-    fn evaluate(&self, tables: &Tables, which: Which, columns: &Columns<f32>) -> Result<Vec<Vec<f32>>, Failure> {
-        #[cfg(feature = "gpu")]
-        if let Executor::Shaders(shaders) = self {
-            let kernel = match which {
-                Which::Moments => &shaders.moments,
-                Which::Alpha => &shaders.alpha,
-                Which::Beta => &shaders.beta,
-            };
-            return Ok(kernel.run(columns)?.values);
+/// An executor at work: batch interpreters keep what they have specialised.
+pub(super) enum Machine<'a, 't> {
+    /// Moments, alpha, beta.
+    Batches(Box<[Batch<'t, f32>; 3]>),
+    #[cfg(feature = "gpu")]
+    Shaders(&'a Shaders<'t>),
+    #[cfg(not(feature = "gpu"))]
+    Shaders(std::convert::Infallible, std::marker::PhantomData<&'a ()>),
+}
+
+impl<'t> Executor<'t> {
+    pub(super) fn machine<'a>(&'a self, tables: &'t Tables) -> Machine<'a, 't> {
+        match self {
+            Executor::Interpreter => {
+                Machine::Batches(Box::new([&tables.moments, &tables.alpha, &tables.beta].map(Batch::new)))
+            }
+            #[cfg(feature = "gpu")]
+            Executor::Shaders(shaders) => Machine::Shaders(shaders),
+            #[cfg(not(feature = "gpu"))]
+            Executor::Shaders(never, _) => match *never {},
         }
-        let results = Batch::new(tables.program(which)).evaluate(columns).map_err(|_| missing())?;
-        Ok((0..results.components()).map(|component| results.values(component).to_vec()).collect())
+    }
+}
+
+impl Machine<'_, '_> {
+    /// One column per number that the function returns.
+    fn evaluate(&mut self, which: Which, columns: &Columns<f32>) -> Result<Vec<Vec<f32>>, Failure> {
+        match self {
+            Machine::Batches(batches) => {
+                let results = batches[which as usize].evaluate(columns).map_err(|_| missing())?;
+                Ok((0..results.components()).map(|component| results.values(component).to_vec()).collect())
+            }
+            #[cfg(feature = "gpu")]
+            Machine::Shaders(shaders) => {
+                let kernel = match which {
+                    Which::Moments => &shaders.moments,
+                    Which::Alpha => &shaders.alpha,
+                    Which::Beta => &shaders.beta,
+                };
+                Ok(kernel.run(columns)?.values)
+            }
+            #[cfg(not(feature = "gpu"))]
+            Machine::Shaders(never, _) => match *never {},
+        }
     }
 }
 
