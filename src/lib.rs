@@ -45,6 +45,8 @@ pub mod picture;
 pub mod plan;
 pub mod profile;
 pub mod program;
+#[cfg(feature = "report")]
+pub mod report;
 #[cfg(feature = "render")]
 pub mod shadow;
 pub mod show;

@@ -9,7 +9,7 @@
 mod cell;
 mod panel;
 mod sheet;
-mod text;
+pub(crate) mod text;
 mod values;
 
 use crate::diag::Failure;

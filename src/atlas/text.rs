@@ -5,21 +5,21 @@ use crate::program::print::Printer;
 use crate::program::{Program, Row};
 
 /// What a line of a case says.
-pub(super) struct LineText {
+pub(crate) struct LineText {
     /// The value.
-    pub(super) value: String,
+    pub(crate) value: String,
     /// When it applies; empty for always.
-    pub(super) condition: String,
+    pub(crate) condition: String,
 }
 
 /// The guard of a row, as written if it is written.
-pub(super) fn guard(program: &Program, row: &Row) -> String {
+pub(crate) fn guard(program: &Program, row: &Row) -> String {
     let written = written_out(row).then(|| slice(program, row.guard_span)).flatten();
     written.unwrap_or_else(|| printer(program).cond(row.guard))
 }
 
 /// The lines of a row, as written if they are written.
-pub(super) fn lines(program: &Program, row: &Row) -> Vec<LineText> {
+pub(crate) fn lines(program: &Program, row: &Row) -> Vec<LineText> {
     let texts = row.lines.iter().map(|line| {
         let written = |span: Option<Span>| if written_out(row) { slice(program, span?) } else { None };
         let value = written(Some(line.span)).unwrap_or_else(|| {
@@ -52,7 +52,7 @@ fn slice(program: &Program, span: Span) -> Option<String> {
 }
 
 /// Breaks a text into lines of at most `width` characters where there are blanks.
-pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
+pub(crate) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
@@ -67,7 +67,7 @@ pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
 }
 
 /// The same, of at most `most` lines; what is left out is said.
-pub(super) fn wrap_at_most(text: &str, width: usize, most: usize) -> Vec<String> {
+pub(crate) fn wrap_at_most(text: &str, width: usize, most: usize) -> Vec<String> {
     let mut lines = wrap(text, width);
     if lines.len() > most {
         lines.truncate(most);

@@ -9,6 +9,7 @@ use super::{Outcome, Result, profiled};
 use crate::atlas::{self, Atlas};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture;
+use crate::profile;
 use crate::program::Program;
 
 /// Arguments of `umbrage atlas`.
@@ -16,6 +17,9 @@ use crate::program::Program;
 pub(super) struct Arguments {
     /// The table
     table: PathBuf,
+    /// The function of a table of functions
+    #[arg(long, value_name = "NAME")]
+    function: Option<String>,
     /// Where it goes; the extension (svg, png, html) says in which form
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
@@ -30,10 +34,10 @@ pub(super) struct Arguments {
 /// Draws the atlas.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let form = Form::of(&arguments.output)?;
-    let program = Program::read(&arguments.table)?;
+    let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     let mut sink = Sink::create(&arguments.output)?;
     let fitted = profiled::read(&program, arguments.profile.as_deref(), report)?;
-    let shares = fitted.map(|fitted| profiled::shares(&program, &fitted.profile));
+    let shares = fitted.map(|fitted| profile::shares(&fitted.profile, &program));
     let atlas = Atlas::new(&program, shares.as_deref())?;
     let bytes = match form {
         Form::Svg => atlas::svg(&program, &atlas).into_bytes(),

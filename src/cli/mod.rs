@@ -15,6 +15,8 @@ mod csv_input;
 mod diff;
 mod eval;
 mod explain;
+#[cfg(feature = "render")]
+mod frame;
 mod json_input;
 mod levels;
 #[cfg(all(feature = "render", feature = "report"))]
@@ -22,8 +24,18 @@ mod light;
 mod output;
 mod profile;
 mod profiled;
+#[cfg(feature = "render")]
+mod progress;
+#[cfg(all(feature = "render", feature = "report"))]
+mod quality;
+#[cfg(all(feature = "render", feature = "report"))]
+mod render;
 mod report;
+#[cfg(feature = "render")]
+mod scenes;
 mod stabilise;
+#[cfg(feature = "report")]
+mod table_report;
 #[cfg(feature = "gpu")]
 mod tune;
 mod why;
@@ -73,6 +85,18 @@ enum Command {
     Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
+    /// Put everything about a table on one page
+    #[cfg(feature = "report")]
+    Report(table_report::Arguments),
+    /// Measure how far each technique is from the true shadow
+    #[cfg(all(feature = "render", feature = "report"))]
+    Quality(quality::Arguments),
+    /// Render a scene with its shadows
+    #[cfg(all(feature = "render", feature = "report"))]
+    Render(render::Arguments),
+    /// List the scenes that come with Umbrage
+    #[cfg(feature = "render")]
+    Scenes,
     /// Light a picture by integral expansions
     #[cfg(all(feature = "render", feature = "report"))]
     Light(light::Arguments),
@@ -156,6 +180,14 @@ pub fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
+        #[cfg(feature = "report")]
+        Command::Report(arguments) => table_report::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Quality(arguments) => quality::run(&arguments, &report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Render(arguments) => render::run(&arguments, &report),
+        #[cfg(feature = "render")]
+        Command::Scenes => scenes::run(&report),
         #[cfg(all(feature = "render", feature = "report"))]
         Command::Light(arguments) => light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),

@@ -4,8 +4,12 @@ use std::path::Path;
 
 use super::report::Report;
 use crate::diag::Failure;
-use crate::profile::{self, Fitted, Profile};
+#[cfg(feature = "report")]
+use crate::diag::{Diagnostic, codes};
+use crate::profile::{self, Fitted};
 use crate::program::Program;
+#[cfg(feature = "report")]
+use crate::tuned::{Choice, Tuned};
 
 /// Reads the profile of a table; says what of it was lost, if the table has changed.
 pub(super) fn read(program: &Program, path: Option<&Path>, report: &Report) -> Result<Option<Fitted>, Failure> {
@@ -17,9 +21,22 @@ pub(super) fn read(program: &Program, path: Option<&Path>, report: &Report) -> R
     Ok(Some(fitted))
 }
 
-/// How often each row is taken, as a share of all evaluations.
-pub(super) fn shares(program: &Program, profile: &Profile) -> Vec<f64> {
-    let found = profile::frequencies(profile);
-    let of = |id: u32| found.iter().find(|frequency| frequency.case == Some(id)).map_or(0.0, |f| f.share);
-    program.rows.iter().map(|row| of(row.id)).collect()
+/// Reads what was tuned on a device.
+#[cfg(feature = "report")]
+pub(super) fn tuned(path: &Path) -> Result<Tuned, Failure> {
+    Tuned::read(path)?.ok_or_else(|| {
+        let error = Diagnostic::error(codes::UNREADABLE, "cannot be read: no such file or directory");
+        Failure::bare(path.to_string_lossy().replace('\\', "/"), error.help("`umbrage tune` writes such files"))
+    })
+}
+
+/// The device, and what was chosen on it for this very text of a table.
+#[cfg(feature = "report")]
+pub(super) fn choice<'t>(program: &Program, tuned: &'t Tuned) -> Result<(&'t str, &'t Choice), Failure> {
+    let found = tuned.choice(program).map(|choice| (tuned.device.as_str(), choice));
+    found.ok_or_else(|| {
+        let message = format!("nothing was tuned for this text of `{}` on {}", program.name, tuned.device);
+        let error = Diagnostic::error(codes::BAD_TUNED, message);
+        Failure::bare(program.source.name.clone(), error.help("run `umbrage tune` again, or leave out --tuned"))
+    })
 }

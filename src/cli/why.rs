@@ -19,6 +19,9 @@ use crate::show::{self, Precision};
 pub(super) struct Arguments {
     /// The table
     table: PathBuf,
+    /// The function of a table of functions
+    #[arg(long, value_name = "NAME")]
+    function: Option<String>,
     /// Number of the case
     #[arg(long, value_name = "NUMBER")]
     case: u32,
@@ -29,7 +32,7 @@ pub(super) struct Arguments {
 
 /// Says what reaches a case.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let program = Program::read(&arguments.table)?;
+    let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     let Some(row) = program.rows.iter().position(|row| row.id == arguments.case) else {
         return Err(missing(&program, arguments.case).into());
     };

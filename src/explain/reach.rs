@@ -76,6 +76,30 @@ pub fn in_state(program: &Program, row: usize, state: usize) -> Option<Arrival> 
     search.smallest
 }
 
+/// The row that a state leads to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Claimed {
+    /// The first row whose guard the state does not exclude; `None` for the default.
+    pub row: Option<usize>,
+    /// Whether its guard holds in all of the state.
+    pub certain: bool,
+}
+
+/// The rows that the states lead to, by number of the state.
+pub fn claims(program: &Program) -> Vec<Claimed> {
+    let mut levels = vec![0; program.inputs.len()];
+    let mut claim = |state: usize| {
+        program.states.write(state, &mut levels);
+        let judged = program.rows.iter().map(|row| judge(program, row.guard, &levels));
+        let first = judged.enumerate().find(|(_, judged)| *judged != Some(false));
+        match first {
+            Some((row, judged)) => Claimed { row: Some(row), certain: judged == Some(true) },
+            None => Claimed { row: None, certain: true },
+        }
+    };
+    (0..program.states.count()).map(&mut claim).collect()
+}
+
 /// Earlier rows that are sure to take states in which the guard of a row could
 /// hold, with the number of these states.
 pub fn earlier(program: &Program, row: usize) -> Vec<(usize, usize)> {
@@ -363,6 +387,7 @@ mod tests {
         let row = program.rows.iter().position(|row| row.id == 19).unwrap();
         assert_eq!(earlier(&program, row), [(0, 4 * 5)]);
         let state = reach(&program, row).states[3];
+        assert_eq!(claims(&program)[state], Claimed { row: Some(row), certain: true });
         assert!(in_state(&program, row, state).is_some());
     }
 }

@@ -25,7 +25,7 @@ pub use chart::chart;
 pub use count::{Frame, TILE};
 pub use file::{read, to_ron};
 pub use fit::{Excluded, Fitted, fit};
-pub use summary::{Change, Frequency, changes, frequencies, total_variation};
+pub use summary::{Change, Frequency, changes, frequencies, shares, total_variation};
 
 /// How often the states of a table occur.
 #[derive(Debug, Clone, PartialEq)]

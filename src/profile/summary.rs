@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::Profile;
+use crate::program::Program;
 
 /// How frequent a case is.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +37,13 @@ pub fn frequencies(profile: &Profile) -> Vec<Frequency> {
         Frequency { case, share: ratio(weighted, weighted_total), mean, deviation, scenes }
     };
     cases.into_iter().chain(default).map(of).collect()
+}
+
+/// How often each row of a program is taken, as a share of all evaluations.
+pub fn shares(profile: &Profile, program: &Program) -> Vec<f64> {
+    let found = frequencies(profile);
+    let of = |id: u32| found.iter().find(|frequency| frequency.case == Some(id)).map_or(0.0, |f| f.share);
+    program.rows.iter().map(|row| of(row.id)).collect()
 }
 
 fn ratio(part: f64, whole: f64) -> f64 {

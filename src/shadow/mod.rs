@@ -15,15 +15,19 @@
 mod case_free;
 pub mod count;
 pub mod cpu;
+pub mod executor;
 mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod inputs;
 pub mod passes;
 mod probe;
+pub mod quality;
 pub mod reference;
 pub mod scene;
 pub mod shade;
+#[cfg(feature = "report")]
+pub mod sheet;
 mod technique;
 pub mod trace;
 pub mod view;

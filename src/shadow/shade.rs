@@ -43,3 +43,16 @@ fn srgb(linear: f32) -> u8 {
     let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 };
     (encoded * 255.0).round() as u8
 }
+
+/// The values of an sRGB picture → linear light.
+pub fn decode(encoded: &RgbImage) -> Rgb32FImage {
+    let mut image = Rgb32FImage::new(encoded.width(), encoded.height());
+    let linear = |value: u8| {
+        let value = f32::from(value) / 255.0;
+        if value <= 0.040_45 { value / 12.92 } else { libm::powf((value + 0.055) / 1.055, 2.4) }
+    };
+    for (out, pixel) in image.pixels_mut().zip(encoded.pixels()) {
+        *out = Rgb(pixel.0.map(linear));
+    }
+    image
+}

@@ -1,0 +1,21 @@
+//! `umbrage scenes`: the scenes that come with Umbrage.
+
+use std::io::{self, Write};
+
+use serde_json::json;
+
+use super::report::{Format, Report};
+use super::{Outcome, Result};
+use crate::shadow::scene::Scene;
+
+/// Lists the names, one a line; as JSON with what each scene shows.
+pub(super) fn run(report: &Report) -> Result<Outcome> {
+    let mut out = io::stdout().lock();
+    for name in Scene::names() {
+        match report.format {
+            Format::Human => writeln!(out, "{name}")?,
+            Format::Json => writeln!(out, "{}", json!({ "name": name, "title": Scene::open(name)?.title }))?,
+        }
+    }
+    Ok(Outcome::Clean)
+}

@@ -1,0 +1,58 @@
+//! Which machine evaluates a technique: the interpreter on the CPU, or the compiled table on a GPU.
+
+#[cfg(feature = "gpu")]
+use super::gpu;
+use super::{Receivers, Settings, ShadowMap, Technique, Visibility, cpu};
+use crate::diag::Failure;
+#[cfg(feature = "gpu")]
+use crate::gpu::Gpu;
+#[cfg(feature = "gpu")]
+use crate::plan::{Plan, Shape};
+
+/// Evaluates techniques.
+#[derive(Debug)]
+pub enum Executor {
+    /// In plain Rust, with the interpreter.
+    Cpu,
+    /// As a shader, with the table compiled as a ladder.
+    #[cfg(feature = "gpu")]
+    Gpu(Box<Gpu>),
+}
+
+impl Executor {
+    /// The visibility of every pixel. `done` is told about every row that the CPU has finished.
+    ///
+    /// # Errors
+    /// When the frame is beyond the device's limits, or the device fails.
+    pub fn visibility(
+        &self,
+        technique: Technique,
+        map: &ShadowMap,
+        receivers: &Receivers,
+        settings: &Settings,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Result<Visibility, Failure> {
+        let program = cpu::table(technique)?;
+        match self {
+            Executor::Cpu => {
+                cpu::visibility(technique, program.as_ref(), cpu::Frame { map, receivers, settings }, done)
+            }
+            #[cfg(feature = "gpu")]
+            Executor::Gpu(device) => {
+                let proved = program.as_ref().map(|program| Plan::proved(program, Shape::Ladder)).transpose()?;
+                let visibility = gpu::visibility(device, technique, proved.as_ref(), map, receivers, settings)?;
+                done(u64::from(receivers.height));
+                Ok(visibility)
+            }
+        }
+    }
+
+    /// What it runs on, in words.
+    pub fn describe(&self) -> String {
+        match self {
+            Executor::Cpu => "CPU".to_owned(),
+            #[cfg(feature = "gpu")]
+            Executor::Gpu(device) => device.describe(),
+        }
+    }
+}
