@@ -20,6 +20,8 @@ mod explain;
 mod frame;
 mod json_input;
 mod levels;
+#[cfg(all(feature = "render", feature = "report"))]
+mod light;
 mod output;
 mod profile;
 mod profiled;
@@ -100,6 +102,9 @@ enum Command {
     /// List the scenes that come with Umbrage
     #[cfg(feature = "render")]
     Scenes,
+    /// Light a picture by integral expansions
+    #[cfg(all(feature = "render", feature = "report"))]
+    Light(light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -189,6 +194,8 @@ pub fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments, &report),
         #[cfg(feature = "render")]
         Command::Scenes => scenes::run(&report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Light(arguments) => light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),
