@@ -7,6 +7,8 @@
 mod answers;
 #[cfg(feature = "report")]
 mod atlas;
+#[cfg(all(feature = "gpu", feature = "render"))]
+mod bench;
 mod build;
 mod check;
 mod columns;
@@ -73,6 +75,9 @@ enum Command {
     /// Draw every case of a table
     #[cfg(feature = "report")]
     Atlas(atlas::Arguments),
+    /// Measure what each technique costs on this device
+    #[cfg(all(feature = "gpu", feature = "render"))]
+    Bench(bench::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -177,6 +182,8 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         #[cfg(feature = "report")]
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
+        #[cfg(all(feature = "gpu", feature = "render"))]
+        Command::Bench(arguments) => bench::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
