@@ -252,7 +252,15 @@ impl<'g> Shader<'g> {
         let marks = matches!(self.pipeline, Pipeline::Marked(..))
             .then(|| texture(MARKS, wgpu::TextureUsages::empty()).create_view(&wgpu::TextureViewDescriptor::default()));
         gpu.check()?;
-        Ok(Bound { shader: self, frame: frame_group, output: output_group, pixels: frame.pixels, buffers, target, marks })
+        Ok(Bound {
+            shader: self,
+            frame: frame_group,
+            output: output_group,
+            pixels: frame.pixels,
+            buffers,
+            target,
+            marks,
+        })
     }
 
     /// Runs a shader made for [`Output::Record`].
@@ -357,8 +365,7 @@ impl Bound<'_, '_> {
         pipeline: &wgpu::ComputePipeline,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) -> wgpu::ComputePass<'e> {
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
         pass.set_bind_group(0, &self.frame, &[]);
         pass.set_bind_group(1, &self.output, &[]);
         pass.set_pipeline(pipeline);
