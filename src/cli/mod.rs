@@ -13,6 +13,7 @@ mod columns;
 mod csv_input;
 #[cfg(feature = "gpu")]
 mod diff;
+mod errata;
 mod eval;
 mod explain;
 #[cfg(feature = "render")]
@@ -77,6 +78,8 @@ enum Command {
     /// Compare every plan on a GPU with the interpreter
     #[cfg(feature = "gpu")]
     Diff(diff::Arguments),
+    /// Report which misprints of a table the analyses find, and how well they find mistakes in general
+    Errata(errata::ErrataArguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about; or what a code means
@@ -174,6 +177,7 @@ pub fn main() -> ExitCode {
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
+        Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use super::columns::{Column, Columns};
 use super::residual::{Term, TermId};
-use crate::program::{BinaryOp, Comparison, InputId, Real, TernaryOp, UnaryOp};
+use crate::program::{BinaryOp, InputId, Real, TernaryOp, UnaryOp};
 
 /// Most rows that go through an instruction at once: a few registers of this fit the first-level cache.
 pub(super) const BLOCK: usize = 1024;
@@ -27,8 +27,6 @@ enum Instruction<T> {
     Unary(UnaryOp, Operand<T>),
     Binary(BinaryOp, Operand<T>, Operand<T>),
     Ternary(TernaryOp, Operand<T>, Operand<T>, Operand<T>),
-    Holds(Comparison, Operand<T>, Operand<T>),
-    Choice(Operand<T>, Operand<T>, Operand<T>),
 }
 
 /// Code that computes some terms.
@@ -114,16 +112,6 @@ impl<T: Real> Code<T> {
                     let [a, b, c] = [a, b, c].map(|operand| registers.argument(operand, len));
                     ternary(op, out, a, b, c);
                 }
-                Instruction::Holds(op, a, b) => {
-                    let (one, zero) = (T::from_f64(1.0), T::from_f64(0.0));
-                    let holds = |a, b| if op.holds(a, b) { one } else { zero };
-                    map2(out, registers.argument(a, len), registers.argument(b, len), holds);
-                }
-                Instruction::Choice(test, then, other) => {
-                    let [test, then, other] = [test, then, other].map(|operand| registers.argument(operand, len));
-                    let zero = T::from_f64(0.0);
-                    map3(out, test, then, other, |test, then, other| if test == zero { other } else { then });
-                }
             }
             registers.0[*target] = target_register;
         }
@@ -140,8 +128,8 @@ impl<T> Instruction<T> {
         match self {
             Instruction::Load(_) => {}
             Instruction::Unary(_, a) => each(a),
-            Instruction::Binary(_, a, b) | Instruction::Holds(_, a, b) => [a, b].into_iter().for_each(each),
-            Instruction::Choice(a, b, c) | Instruction::Ternary(_, a, b, c) => [a, b, c].into_iter().for_each(each),
+            Instruction::Binary(_, a, b) => [a, b].into_iter().for_each(each),
+            Instruction::Ternary(_, a, b, c) => [a, b, c].into_iter().for_each(each),
         }
     }
 }
@@ -163,8 +151,6 @@ impl<T: Real> Compiler<'_, T> {
             Term::Input(input) => Instruction::Load(input),
             Term::Unary(op, a) => Instruction::Unary(op, self.place(a)),
             Term::Binary(op, a, b) => Instruction::Binary(op, self.place(a), self.place(b)),
-            Term::Holds(op, a, b) => Instruction::Holds(op, self.place(a), self.place(b)),
-            Term::Choice(a, b, c) => Instruction::Choice(self.place(a), self.place(b), self.place(c)),
             Term::Ternary(op, a, b, c) => Instruction::Ternary(op, self.place(a), self.place(b), self.place(c)),
         };
         let register = self.registers;

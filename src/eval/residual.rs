@@ -24,10 +24,6 @@ const MAX_NODES: usize = 4096;
 /// Most tests one after the other.
 const MAX_TESTS: usize = 256;
 
-/// Most comparisons on a path of a program without fetched inputs; what is selected
-/// after that is computed both ways. Functions have selections by the dozen.
-const MAX_SPLITS: usize = 5;
-
 /// Most terms visited for one tree.
 const MAX_STEPS: usize = 1 << 20;
 
@@ -41,7 +37,7 @@ impl TermId {
     }
 }
 
-/// An expression without selections, but for those that are computed both ways.
+/// An expression without selections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Term {
     Const(Number),
@@ -49,10 +45,6 @@ pub(super) enum Term {
     Unary(UnaryOp, TermId),
     Binary(BinaryOp, TermId, TermId),
     Ternary(TernaryOp, TermId, TermId, TermId),
-    /// 1 if the comparison holds, else 0.
-    Holds(Comparison, TermId, TermId),
-    /// The second unless the first is 0, then the third.
-    Choice(TermId, TermId, TermId),
 }
 
 /// A tree in a [`Residual`].
@@ -341,54 +333,13 @@ impl<'p, T: Real> Residual<'p, T> {
                     _ => self.term(Term::Ternary(op, a, b, c)),
                 }
             }
-            Node::Select(condition, then, other) => match self.holds(known, condition) {
-                Ok(true) => self.number(known, then)?,
-                Ok(false) => self.number(known, other)?,
-                // Nothing is fetched on either side, so both may be computed.
-                Err(Stop::Compare(..)) if known.comparisons.len() >= MAX_SPLITS && self.program.fetched.is_empty() => {
-                    let test = self.test(known, condition)?;
-                    let (then, other) = (self.number(known, then)?, self.number(known, other)?);
-                    self.term(Term::Choice(test, then, other))
-                }
-                Err(stop) => return Err(stop),
+            Node::Select(condition, then, other) => match self.holds(known, condition)? {
+                true => self.number(known, then)?,
+                false => self.number(known, other)?,
             },
         };
         self.memo.insert(expr, term);
         Ok(term)
-    }
-
-    /// A condition as a number: 1 if it holds, else 0.
-    fn test(&mut self, known: &Known, condition: CondId) -> Result<TermId, Stop> {
-        self.step()?;
-        let number = |holds: bool| T::from_f64(f64::from(u8::from(holds)));
-        Ok(match self.program.pool.cond(condition) {
-            Cond::Const(_) | Cond::Level(..) => {
-                let holds = self.holds(known, condition)?;
-                self.fixed(number(holds))
-            }
-            Cond::Compare(op, a, b) => {
-                let (a, b) = (self.number(known, *a)?, self.number(known, *b)?);
-                self.term(Term::Holds(*op, a, b))
-            }
-            Cond::Not(a) => {
-                let (one, a) = (self.fixed(number(true)), self.test(known, *a)?);
-                self.term(Term::Binary(BinaryOp::Subtract, one, a))
-            }
-            Cond::And(parts) | Cond::Or(parts) => {
-                let is_and = matches!(self.program.pool.cond(condition), Cond::And(_));
-                let op = if is_and { BinaryOp::Min } else { BinaryOp::Max };
-                let mut all = self.fixed(number(is_and));
-                for part in parts {
-                    let part = self.test(known, *part)?;
-                    all = self.term(Term::Binary(op, all, part));
-                }
-                all
-            }
-            Cond::If(c, a, b) => {
-                let (c, a, b) = (self.test(known, *c)?, self.test(known, *a)?, self.test(known, *b)?);
-                self.term(Term::Choice(c, a, b))
-            }
-        })
     }
 
     fn constant(&self, term: TermId) -> Option<T> {
