@@ -7,18 +7,23 @@
 mod answers;
 #[cfg(feature = "report")]
 mod atlas;
+#[cfg(all(feature = "gpu", feature = "render"))]
+mod bench;
 mod build;
 mod check;
 mod columns;
 mod csv_input;
 #[cfg(feature = "gpu")]
 mod diff;
+mod errata;
 mod eval;
 mod explain;
 #[cfg(feature = "render")]
 mod frame;
 mod json_input;
 mod levels;
+#[cfg(all(feature = "render", feature = "report"))]
+mod light;
 mod output;
 mod profile;
 mod profiled;
@@ -70,6 +75,9 @@ enum Command {
     /// Draw every case of a table
     #[cfg(feature = "report")]
     Atlas(atlas::Arguments),
+    /// Measure what each technique costs on this device
+    #[cfg(all(feature = "gpu", feature = "render"))]
+    Bench(bench::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -77,6 +85,8 @@ enum Command {
     /// Compare every plan on a GPU with the interpreter
     #[cfg(feature = "gpu")]
     Diff(diff::Arguments),
+    /// Report which misprints of a table the analyses find, and how well they find mistakes in general
+    Errata(errata::ErrataArguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about; or what a code means
@@ -97,6 +107,9 @@ enum Command {
     /// List the scenes that come with Umbrage
     #[cfg(feature = "render")]
     Scenes,
+    /// Light a picture by integral expansions
+    #[cfg(all(feature = "render", feature = "report"))]
+    Light(light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -169,11 +182,14 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         #[cfg(feature = "report")]
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
+        #[cfg(all(feature = "gpu", feature = "render"))]
+        Command::Bench(arguments) => bench::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
+        Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
@@ -185,6 +201,8 @@ pub fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments, &report),
         #[cfg(feature = "render")]
         Command::Scenes => scenes::run(&report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Light(arguments) => light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),

@@ -41,7 +41,7 @@ pub(crate) struct Affine {
 }
 
 /// A minimum of maxima; both lists are sorted and not empty.
-type Lattice = Vec<Vec<Affine>>;
+pub(crate) type Lattice = Vec<Vec<Affine>>;
 
 /// Makes normal forms. Selections must have been resolved before.
 #[derive(Debug, Default)]
@@ -60,6 +60,11 @@ impl Normaliser {
         let result = self.lattice(pool, expr).map(|form| self.intern(form));
         self.memo.insert(expr, result);
         result
+    }
+
+    /// What a normal form is.
+    pub(crate) fn lattice_of(&self, id: NormalId) -> &Lattice {
+        &self.forms[id.0 as usize]
     }
 
     /// The expression as one affine form, if it is one.

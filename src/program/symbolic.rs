@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 use num_traits::Signed;
 
 use super::region::{self, Sign};
-use crate::program::normal::{Affine, Normaliser, Term};
+use crate::program::normal::{Affine, Normaliser};
 use crate::program::print::Printer;
 use crate::program::{
     BinaryOp, Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, LevelTerm, Node, Pool, Program, Symmetry,
@@ -421,12 +421,6 @@ impl<'p> Machine<'p> {
         self.sign(a, b) == Some(Sign::Zero)
     }
 
-    /// Whether the guards of two rows hold on this path.
-    pub(crate) fn both_hold(&mut self, first: usize, second: usize) -> bool {
-        let rows = &self.program.rows;
-        self.holds(rows[first].guard, View::PLAIN) && self.holds(rows[second].guard, View::PLAIN)
-    }
-
     /// The value of a row on this path, its guard aside: the first line that applies, else the default.
     pub(crate) fn row_values(&mut self, row: usize, view: View<'_>) -> Vec<ExprId> {
         let program = self.program;
@@ -486,14 +480,5 @@ impl<'p> Machine<'p> {
             (Question::Sign(_), None) => String::new(),
         });
         state.chain(asked).collect::<Vec<_>>().join(", ")
-    }
-
-    /// Whether the path is sure to be taken by some inputs: everything asked was linear in them.
-    pub(crate) fn certain(&self) -> bool {
-        self.choices.iter().all(|choice| match choice.question {
-            Question::Level(_) => true,
-            Question::Sign(form) => self.forms[form].terms.keys().all(|term| matches!(term, Term::Input(_))),
-            Question::Compare(..) => false,
-        })
     }
 }

@@ -73,8 +73,11 @@ fn square(program: &Program, claim: Claimed, x: usize, y: usize) -> Markup {
     }
 }
 
+/// Discrete inputs, with their number of levels.
+type Digits = Vec<(InputId, usize)>;
+
 /// The inputs of a state, in two parts of about as many combinations.
-fn split(program: &Program) -> (Vec<(InputId, usize)>, Vec<(InputId, usize)>) {
+fn split(program: &Program) -> (Digits, Digits) {
     let digits = program.states.digits();
     let mut product = 1;
     let mut at = 0;
