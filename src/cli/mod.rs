@@ -15,12 +15,15 @@ mod columns;
 mod csv_input;
 #[cfg(feature = "gpu")]
 mod diff;
+mod errata;
 mod eval;
 mod explain;
 #[cfg(feature = "render")]
 mod frame;
 mod json_input;
 mod levels;
+#[cfg(all(feature = "render", feature = "report"))]
+mod light;
 mod output;
 mod profile;
 mod profiled;
@@ -53,7 +56,9 @@ use report::{Color, Format, Report};
 
 #[derive(Parser)]
 #[command(name = "umbrage", version, about = "Compiles case tables into shaders that are proved equal to the table")]
-#[command(after_help = "Exit codes: 0 clean, 1 findings, 2 failure.")]
+#[command(
+    after_help = "Exit codes: 0 clean, 1 findings, 2 failure.\nWhat a message means at length: umbrage explain CODE"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -80,6 +85,8 @@ enum Command {
     /// Compare every plan on a GPU with the interpreter
     #[cfg(feature = "gpu")]
     Diff(diff::Arguments),
+    /// Report which misprints of a table the analyses find, and how well they find mistakes in general
+    Errata(errata::ErrataArguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about; or what a code means
@@ -100,6 +107,9 @@ enum Command {
     /// List the scenes that come with Umbrage
     #[cfg(feature = "render")]
     Scenes,
+    /// Light a picture by integral expansions
+    #[cfg(all(feature = "render", feature = "report"))]
+    Light(light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -179,6 +189,7 @@ pub fn main() -> ExitCode {
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
+        Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
@@ -190,6 +201,8 @@ pub fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments, &report),
         #[cfg(feature = "render")]
         Command::Scenes => scenes::run(&report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Light(arguments) => light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),

@@ -252,7 +252,15 @@ impl<'g> Shader<'g> {
         let marks = matches!(self.pipeline, Pipeline::Marked(..))
             .then(|| texture(MARKS, wgpu::TextureUsages::empty()).create_view(&wgpu::TextureViewDescriptor::default()));
         gpu.check()?;
-        Ok(Bound { shader: self, frame: frame_group, output: output_group, pixels: frame.pixels, buffers, target, marks })
+        Ok(Bound {
+            shader: self,
+            frame: frame_group,
+            output: output_group,
+            pixels: frame.pixels,
+            buffers,
+            target,
+            marks,
+        })
     }
 
     /// Runs a shader made for [`Output::Record`].
@@ -264,8 +272,8 @@ impl<'g> Shader<'g> {
         bound.submit();
         let mut visibility = Visibility::new(frame.pixel_count());
         let mut costs = Costs::default();
-        visibility.value = bound.read(0, |bytes| bytemuck::pod_collect_to_vec::<u8, f32>(bytes))?;
-        let records = bound.read(1, |bytes| bytemuck::pod_collect_to_vec::<u8, [u32; 4]>(bytes))?;
+        visibility.value = bound.read(0, bytemuck::pod_collect_to_vec::<u8, f32>)?;
+        let records = bound.read(1, bytemuck::pod_collect_to_vec::<u8, [u32; 4]>)?;
         for (pixel, [case, key, reads, steps]) in records.into_iter().enumerate() {
             costs.reads.push(reads);
             costs.steps.push(steps);
@@ -285,7 +293,7 @@ impl<'g> Shader<'g> {
     pub fn counts(&self, frame: &GpuFrame, settings: &Settings) -> Result<Vec<u64>, Failure> {
         let bound = self.bind(frame, settings)?;
         bound.submit();
-        let by_key = bound.read(0, |bytes| bytemuck::pod_collect_to_vec::<u8, u32>(bytes))?;
+        let by_key = bound.read(0, bytemuck::pod_collect_to_vec::<u8, u32>)?;
         let mut counts = vec![0; self.keys.states.len()];
         for (key, state) in &self.keys.states {
             counts[*state as usize] = u64::from(by_key[*key as usize]);
@@ -313,7 +321,7 @@ impl Bound<'_, '_> {
     pub fn values(&self) -> Result<Vec<f32>, Failure> {
         self.submit();
         match &self.target {
-            None => self.read(0, |bytes| bytemuck::pod_collect_to_vec::<u8, f32>(bytes)),
+            None => self.read(0, bytemuck::pod_collect_to_vec::<u8, f32>),
             Some(target) => {
                 let [width, height] = self.pixels.map(|side| side as usize);
                 let (bytes, pitch) = self.shader.gpu.read_texture(target, 4)?;
@@ -357,8 +365,7 @@ impl Bound<'_, '_> {
         pipeline: &wgpu::ComputePipeline,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) -> wgpu::ComputePass<'e> {
-        let mut pass =
-            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
         pass.set_bind_group(0, &self.frame, &[]);
         pass.set_bind_group(1, &self.output, &[]);
         pass.set_pipeline(pipeline);
