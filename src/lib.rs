@@ -38,6 +38,8 @@ pub mod eval;
 pub mod explain;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(feature = "render")]
+pub mod light;
 #[cfg(feature = "report")]
 pub mod picture;
 pub mod plan;

@@ -205,13 +205,16 @@ fn size(study: &mut Study<'_>, jump: &Jump) -> (f64, Set) {
     (best, place)
 }
 
+/// The cases on both sides of a jump, the smaller first; `None` is the default.
+type Pair = (Option<usize>, Option<usize>);
+
 /// What to say of a place: inputs on this side, and on the other if they are not the same.
 type Tell<'a> = &'a dyn Fn(&mut Space<'_>, Set) -> Option<(String, Option<String>)>;
 
 /// One warning for each pair of cases between which the value jumps, the largest jump first.
 fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell: Tell<'_>) -> Vec<Diagnostic> {
     let program = study.program;
-    let mut largest: BTreeMap<(Option<usize>, Option<usize>), (f64, Set, Sides)> = BTreeMap::new();
+    let mut largest: BTreeMap<Pair, (f64, Set, Sides)> = BTreeMap::new();
     for jump in &jumps {
         let (size, set) = size(study, jump);
         let (a, b) = (jump.sides[0].0, jump.sides[1].0);
@@ -223,7 +226,7 @@ fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell
     let mut largest: Vec<_> = largest.into_iter().collect();
     largest.sort_by(|a, b| b.1.0.total_cmp(&a.1.0));
     let numbers = !program.output.is_integer();
-    let describe = |((a, b), (size, set, sides)): ((Option<usize>, Option<usize>), (f64, Set, Sides))| {
+    let describe = |((a, b), (size, set, sides)): (Pair, (f64, Set, Sides))| {
         let mut rows = vec![a, b];
         rows.dedup();
         let far = if numbers { format!(" by up to {}", words::short(size)) } else { String::new() };

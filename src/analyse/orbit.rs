@@ -163,7 +163,7 @@ pub(super) fn expected(study: &mut Study<'_>, member: &Member) -> Option<Vec<Exp
             let pool = &mut study.space.pool;
             Some(match member.scale {
                 Scale::SAME => image,
-                Scale { factor, offset } if factor == -1.0 => {
+                Scale { factor: -1.0, offset } => {
                     let offset = pool.number(offset);
                     pool.binary(BinaryOp::Subtract, offset, image)
                 }

@@ -20,12 +20,14 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
 
 /// Levels of some digits, as a guard that is nothing else.
 type Pattern = Vec<(usize, LevelSet)>;
+/// The lines of a case: conditions with their values.
+type Lines = Vec<(CondId, Vec<ExprId>)>;
 
 /// Cases with one value whose guards differ in the levels of a single input.
 fn mergeable(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut found = Vec::new();
-    let mut by_value: HashMap<Vec<(CondId, Vec<ExprId>)>, Vec<(usize, Pattern)>> = HashMap::new();
+    let mut by_value: HashMap<Lines, Vec<(usize, Pattern)>> = HashMap::new();
     for (number, row) in program.rows.iter().enumerate() {
         let guard = study.rows.guards[number];
         let patterns = study.space.sets.patterns(guard, 2);

@@ -34,12 +34,15 @@ struct Odd {
     along: Vec<usize>,
 }
 
+/// Rows; `None` is the default.
+type Rows = Vec<Option<usize>>;
+
 /// A warning for each line that most of its images contradict, and for cases
 /// that contradict each other undecidedly; a note where only assumptions help.
 pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut odd: BTreeMap<Place, Odd> = BTreeMap::new();
-    let mut torn: BTreeMap<(Vec<Option<usize>>, Vec<Option<usize>>), (Point, Vec<usize>)> = BTreeMap::new();
+    let mut torn: BTreeMap<(Rows, Rows), (Point, Vec<usize>)> = BTreeMap::new();
     // By the symmetry and the first of the two rows, in the order written.
     let mut assumed: BTreeMap<(Option<usize>, usize), Vec<Contradiction>> = BTreeMap::new();
     let all: Vec<usize> = (0..program.symmetries.len()).collect();

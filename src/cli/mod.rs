@@ -7,6 +7,8 @@
 mod answers;
 #[cfg(feature = "report")]
 mod atlas;
+#[cfg(all(feature = "gpu", feature = "render"))]
+mod bench;
 mod build;
 mod check;
 mod columns;
@@ -20,6 +22,8 @@ mod explain;
 mod frame;
 mod json_input;
 mod levels;
+#[cfg(all(feature = "render", feature = "report"))]
+mod light;
 mod output;
 mod profile;
 mod profiled;
@@ -52,7 +56,9 @@ use report::{Color, Format, Report};
 
 #[derive(Parser)]
 #[command(name = "umbrage", version, about = "Compiles case tables into shaders that are proved equal to the table")]
-#[command(after_help = "Exit codes: 0 clean, 1 findings, 2 failure.")]
+#[command(
+    after_help = "Exit codes: 0 clean, 1 findings, 2 failure.\nWhat a message means at length: umbrage explain CODE"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -69,6 +75,9 @@ enum Command {
     /// Draw every case of a table
     #[cfg(feature = "report")]
     Atlas(atlas::Arguments),
+    /// Measure what each technique costs on this device
+    #[cfg(all(feature = "gpu", feature = "render"))]
+    Bench(bench::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -98,6 +107,9 @@ enum Command {
     /// List the scenes that come with Umbrage
     #[cfg(feature = "render")]
     Scenes,
+    /// Light a picture by integral expansions
+    #[cfg(all(feature = "render", feature = "report"))]
+    Light(light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -170,6 +182,8 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         #[cfg(feature = "report")]
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
+        #[cfg(all(feature = "gpu", feature = "render"))]
+        Command::Bench(arguments) => bench::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
@@ -187,6 +201,8 @@ pub fn main() -> ExitCode {
         Command::Render(arguments) => render::run(&arguments, &report),
         #[cfg(feature = "render")]
         Command::Scenes => scenes::run(&report),
+        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Light(arguments) => light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),

@@ -79,6 +79,12 @@ impl Normaliser {
         }
     }
 
+    /// The expression as a minimum of maxima of affine forms.
+    pub(crate) fn forms(&mut self, pool: &Pool, expr: ExprId) -> Option<&[Vec<Affine>]> {
+        let id = self.normal(pool, expr)?;
+        Some(&self.forms[id.0 as usize])
+    }
+
     fn intern(&mut self, form: Lattice) -> NormalId {
         if let Some(id) = self.index.get(&form) {
             return *id;

@@ -93,11 +93,11 @@ pub fn stabilise(table: &Table) -> Result<Stabilised, Failure> {
 
 /// The new formula of a function, if it needs one.
 fn value(table: &Table, function: &crate::table::Function, kernels: &mut Kernels) -> Result<Option<String>, String> {
-    let mut reader = Reader::new(table);
-    let sum = reader.function(function)?;
-    if !reader.singular {
+    if !read::is_singular(table, function) {
         return Ok(None);
     }
+    let mut reader = Reader::new(table);
+    let sum = reader.function(function)?;
     let too_large = || "it becomes too large".to_owned();
     let mut sum = sum.reduced().and_then(|sum| tame(&sum)).ok_or_else(too_large)?;
     let mut lets = Vec::new();
@@ -202,8 +202,12 @@ fn arguments(sum: &Poly, table: &Table) -> Vec<Argument> {
         if all.iter().any(|known| value.ratio(&known.value).is_some()) {
             continue;
         }
-        let taken =
-            |name: &str| table.inputs.iter().any(|i| i.name.value == name) || all.iter().any(|a| a.name == name);
+        let taken = |name: &str| {
+            table.inputs.iter().any(|i| i.name.value == name)
+                || table.names.iter().any(|n| n.name.value == name)
+                || table.constants.iter().any(|c| c.name.value == name)
+                || all.iter().any(|a| a.name == name)
+        };
         let name = match (is_variable, value.single()) {
             (true, Some((mono, _))) => match mono.keys().next() {
                 Some(Atom::Var(variable)) => variable.clone(),

@@ -31,12 +31,7 @@ pub(super) struct Reader<'t> {
     table: &'t Table,
     /// The bounds met so far.
     pub(super) bounds: Vec<Bounds>,
-    /// Whether the function itself, and not only what it calls, divides by more than a number or takes a
-    /// difference between bounds.
-    pub(super) singular: bool,
     depth: usize,
-    /// How many calls of functions lead here.
-    calls: usize,
 }
 
 type Result<T> = std::result::Result<T, String>;
@@ -48,7 +43,7 @@ fn too_large() -> String {
 
 impl<'t> Reader<'t> {
     pub(super) fn new(table: &'t Table) -> Self {
-        Self { table, bounds: Vec::new(), singular: false, depth: 0, calls: 0 }
+        Self { table, bounds: Vec::new(), depth: 0 }
     }
 
     /// The value of a function in terms of its parameters.
@@ -120,7 +115,6 @@ impl<'t> Reader<'t> {
                 let free = format!("{}'{}", variable.value, self.depth);
                 inner.insert(variable.value.clone(), Poly::var(&free));
                 let body = self.expr(body, &inner)?;
-                self.singular |= self.calls == 0;
                 let (mid, half) = self.bounds(lo, hi);
                 between(&body, &free, &mid, &half)
             }
@@ -151,7 +145,6 @@ impl<'t> Reader<'t> {
             }
             _ => {
                 let under = self.expr(under, env)?;
-                self.singular |= self.calls == 0 && under.constant().is_none();
                 over.over(&under).ok_or_else(too_large)
             }
         }
@@ -234,10 +227,60 @@ impl<'t> Reader<'t> {
             };
             inner.insert(parameter.clone(), value);
         }
-        self.calls += 1;
-        let value = self.body(function, inner);
-        self.calls -= 1;
-        value
+        self.body(function, inner)
+    }
+}
+
+/// Whether a function itself, and not only what it calls, divides by more than a number or takes a
+/// difference between bounds.
+pub(super) fn is_singular(table: &Table, function: &Function) -> bool {
+    let FunctionBody::Value(value) = &function.body else { return false };
+    let mut own: Vec<&Expr> = function.bindings.iter().map(|binding| &binding.value).chain([value]).collect();
+    let mut seen: Vec<&str> = Vec::new();
+    while let Some(expr) = own.pop() {
+        match &expr.kind {
+            ExprKind::Between(..) => return true,
+            ExprKind::Binary(BinaryOp::Divide, _, under) if !is_number(under) => return true,
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => own.extend([&**a, &**b]),
+            ExprKind::Unary(_, a) | ExprKind::Swizzle(a, _) | ExprKind::Sum(_, _, a) | ExprKind::In(a, _) => {
+                own.push(a)
+            }
+            ExprKind::If(a, b, c) => own.extend([&**a, &**b, &**c]),
+            ExprKind::List(items) => own.extend(items),
+            ExprKind::With(_, set) | ExprKind::Record(set) | ExprKind::Case(_, set) => {
+                own.extend(set.iter().map(|(_, value)| value));
+            }
+            // Helpers and names are as if written here; functions speak for themselves.
+            ExprKind::Call(name, items) => {
+                own.extend(items);
+                if let Some(helper) = table.helpers.iter().find(|h| h.name.value == name.value)
+                    && !seen.contains(&helper.name.value.as_str())
+                {
+                    seen.push(&helper.name.value);
+                    own.extend(helper.lines.iter().map(|line| &line.value));
+                }
+            }
+            ExprKind::Name(name) => {
+                if let Some(named) = table.names.iter().find(|n| n.name.value == *name)
+                    && !seen.contains(&named.name.value.as_str())
+                {
+                    seen.push(&named.name.value);
+                    own.push(&named.value);
+                }
+            }
+            ExprKind::Number(_) => {}
+        }
+    }
+    false
+}
+
+/// Whether an expression is a number without any name in it.
+fn is_number(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Number(_) => true,
+        ExprKind::Unary(_, a) => is_number(a),
+        ExprKind::Binary(_, a, b) => is_number(a) && is_number(b),
+        _ => false,
     }
 }
 

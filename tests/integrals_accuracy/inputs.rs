@@ -3,10 +3,10 @@
 use super::oracle::Rules;
 
 /// Random numbers, the same in every run (splitmix64).
-pub struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed)
     }
 
@@ -18,25 +18,25 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    pub fn part(&mut self) -> f64 {
+    pub(crate) fn part(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    pub fn between(&mut self, lo: f64, hi: f64) -> f64 {
+    pub(crate) fn between(&mut self, lo: f64, hi: f64) -> f64 {
         lo + (hi - lo) * self.part()
     }
 
     /// Between two positive numbers, as many in each decade.
-    pub fn by_size(&mut self, lo: f64, hi: f64) -> f64 {
+    pub(crate) fn by_size(&mut self, lo: f64, hi: f64) -> f64 {
         self.between(lo.ln(), hi.ln()).exp()
     }
 
-    pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
+    pub(crate) fn pick<T: Copy>(&mut self, items: &[T]) -> T {
         items[(self.bits() % items.len() as u64) as usize]
     }
 
     /// A value at or beside one of these: exactly, its `f32` neighbours, or up to 1e-2 away.
-    pub fn near(&mut self, places: &[f64]) -> f32 {
+    pub(crate) fn near(&mut self, places: &[f64]) -> f32 {
         let place = self.pick(places) as f32;
         match self.pick(&[0, 1, 2, 3, 3, 3]) {
             0 => place,
@@ -50,7 +50,7 @@ impl Random {
     }
 
     /// A vector of length up to 1; at times with zeros, or straight up or down.
-    pub fn vector(&mut self) -> [f32; 3] {
+    pub(crate) fn vector(&mut self) -> [f32; 3] {
         match self.pick(&[0, 1, 2, 3, 4, 5]) {
             0 => [0.0, 0.0, self.pick(&[1.0, -1.0])],
             1 => [self.between(-1.0, 1.0) as f32, 0.0, self.between(-1.0, 1.0) as f32],
@@ -64,28 +64,28 @@ impl Random {
 }
 
 /// The slopes at which printed formulas divide by zero.
-pub const SLOPES: [f64; 11] =
+pub(crate) const SLOPES: [f64; 11] =
     [0.0, 0.5, -0.5, 1.0, -1.0, 1.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0, -2.0 / 3.0, 2.0, -2.0];
 
 /// A cell with a linear upper side.
 #[derive(Debug, Clone, Copy)]
-pub struct Cell {
-    pub phi0: f32,
-    pub phi1: f32,
-    pub theta0: f32,
-    pub k: f32,
-    pub b: f32,
+pub(crate) struct Cell {
+    pub(crate) phi0: f32,
+    pub(crate) phi1: f32,
+    pub(crate) theta0: f32,
+    pub(crate) k: f32,
+    pub(crate) b: f32,
 }
 
 /// A cell whose upper side stays between 0 and π.
-pub fn cell(random: &mut Random) -> Cell {
+pub(crate) fn cell(random: &mut Random) -> Cell {
     loop {
         let width = match random.pick(&[0, 1, 1, 1, 2]) {
             0 => 0.0,
             1 => random.by_size(1e-4, 1.57),
             _ => random.between(0.1, 1.57),
         };
-        let phi0 = random.between(0.0, 6.28 - width) as f32;
+        let phi0 = random.between(0.0, 6.25 - width) as f32;
         let phi1 = (f64::from(phi0) + width) as f32;
         let k = match random.pick(&[0, 1, 1]) {
             0 => random.between(-4.0, 4.0) as f32,
@@ -109,7 +109,7 @@ pub fn cell(random: &mut Random) -> Cell {
 
 impl Cell {
     /// Its integrals.
-    pub fn moments(rules: &Rules, [phi0, phi1, theta0, k, b]: [f64; 5]) -> super::oracle::Moments {
+    pub(crate) fn moments(rules: &Rules, [phi0, phi1, theta0, k, b]: [f64; 5]) -> super::oracle::Moments {
         rules.moments((phi0, phi1), theta0, |phi| k * phi + b)
     }
 }

@@ -8,15 +8,15 @@
 use std::f64::consts::PI;
 
 /// Half a unit in the last place of 1 in `f32`.
-pub const EPSILON: f64 = 1.0 / 16_777_216.0;
+pub(crate) const EPSILON: f64 = 1.0 / 16_777_216.0;
 
 /// Nodes and weights of a Gauss-Legendre rule on [-1, 1].
 #[derive(Debug, Clone)]
-pub struct Rule(Vec<(f64, f64)>);
+pub(crate) struct Rule(Vec<(f64, f64)>);
 
 impl Rule {
     /// The rule with `count` nodes, by Newton's method on the Legendre polynomial.
-    pub fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         let n = count as f64;
         let node = |i: usize| {
             let mut x = (PI * (i as f64 + 0.75) / (n + 0.5)).cos();
@@ -40,7 +40,7 @@ impl Rule {
     }
 
     /// The integral of `f` from `lo` to `hi`.
-    pub fn integrate(&self, lo: f64, hi: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+    pub(crate) fn integrate(&self, lo: f64, hi: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
         let half = 0.5 * (hi - lo);
         self.0.iter().map(|(x, weight)| weight * f(lo + half * (1.0 + x))).sum::<f64>() * half
     }
@@ -48,7 +48,7 @@ impl Rule {
 
 /// Both rules that a cell needs, and one for an oscillating integrand.
 #[derive(Debug, Clone)]
-pub struct Rules {
+pub(crate) struct Rules {
     outer: Rule,
     inner: Rule,
     fast: Rule,
@@ -56,22 +56,22 @@ pub struct Rules {
 
 /// The parts of A and B, and what they are measured by.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Moments {
+pub(crate) struct Moments {
     /// ∫∫ ω
-    pub first: [f64; 3],
+    pub(crate) first: [f64; 3],
     /// ∫∫ ω ω: xx, xy, yy, xz, yz, zz
-    pub second: [f64; 6],
+    pub(crate) second: [f64; 6],
     /// ∫∫ |sin θ|: the solid angle
-    pub solid: f64,
+    pub(crate) solid: f64,
 }
 
 impl Rules {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { outer: Rule::new(36), inner: Rule::new(20), fast: Rule::new(80) }
     }
 
     /// The integrals over φ0 ≤ φ ≤ φ1, θ0 ≤ θ ≤ `upper(φ)`.
-    pub fn moments(&self, phi: (f64, f64), theta: f64, upper: impl Fn(f64) -> f64) -> Moments {
+    pub(crate) fn moments(&self, phi: (f64, f64), theta: f64, upper: impl Fn(f64) -> f64) -> Moments {
         let mut all = Moments::default();
         let half = 0.5 * (phi.1 - phi.0);
         for (x, weight) in &self.outer.0 {
@@ -102,7 +102,7 @@ impl Rules {
     }
 
     /// The integrals C0 to C5.
-    pub fn c(&self, index: usize, [phi0, phi1, p, q, s, t]: [f64; 6]) -> f64 {
+    pub(crate) fn c(&self, index: usize, [phi0, phi1, p, q, s, t]: [f64; 6]) -> f64 {
         self.fast.integrate(phi0, phi1, |phi| match index {
             0 => 1.0,
             1 => (phi + p).sin(),
@@ -116,7 +116,7 @@ impl Rules {
 
 impl Moments {
     /// A0, A1, A, B0, B1, B2, B3, B, Lo for a normal, a lobe vector and α*.
-    pub fn parts(&self, n: [f64; 3], p: [f64; 3], alpha: f64) -> [f64; 9] {
+    pub(crate) fn parts(&self, n: [f64; 3], p: [f64; 3], alpha: f64) -> [f64; 9] {
         let [mx, my, mz] = self.first;
         let [xx, xy, yy, xz, yz, zz] = self.second;
         let unit = |x: f64, y: f64| {
@@ -129,18 +129,15 @@ impl Moments {
         let a = n[0] * mx + n[1] * my + n[2] * mz;
         let b0 = sg * st * xx + (sg * ct + cg * st) * xy + cg * ct * yy;
         let (b1, b2) = (cg * yz + sg * xz, ct * yz + st * xz);
-        let mn = [
-            xx * n[0] + xy * n[1] + xz * n[2],
-            xy * n[0] + yy * n[1] + yz * n[2],
-            xz * n[0] + yz * n[1] + zz * n[2],
-        ];
+        let mn =
+            [xx * n[0] + xy * n[1] + xz * n[2], xy * n[0] + yy * n[1] + yz * n[2], xz * n[0] + yz * n[1] + zz * n[2]];
         let b = p[0] * mn[0] + p[1] * mn[1] + p[2] * mn[2];
         [a0, mz, a, b0, b1, b2, zz, b, alpha * a + b]
     }
 }
 
 /// r0, r1, alpha, beta of the linear approximation of μ e^(λ(x-1)) on [a, b].
-pub fn linear([mu, lambda, a, b]: [f64; 4]) -> [f64; 4] {
+pub(crate) fn linear([mu, lambda, a, b]: [f64; 4]) -> [f64; 4] {
     let z = lambda * (b - a);
     let top = mu * (lambda * (b - 1.0)).exp();
     let series = |first: f64, ratio: &dyn Fn(f64) -> f64| {
@@ -162,7 +159,7 @@ pub fn linear([mu, lambda, a, b]: [f64; 4]) -> [f64; 4] {
 }
 
 /// e1 and e2: the error of that approximation in the mean and in the mean square.
-pub fn error(rules: &Rules, input: [f64; 4]) -> [f64; 2] {
+pub(crate) fn error(rules: &Rules, input: [f64; 4]) -> [f64; 2] {
     let [mu, lambda, a, b] = input;
     let q = 0.5 * (b - a);
     let y = lambda * q;
@@ -197,7 +194,7 @@ pub fn error(rules: &Rules, input: [f64; 4]) -> [f64; 2] {
 }
 
 /// The summed change of a result for a change of each input by half a unit in its last place.
-pub fn sensitivity<const N: usize, const M: usize>(
+pub(crate) fn sensitivity<const N: usize, const M: usize>(
     input: [f32; N],
     exact: [f64; M],
     f: impl Fn([f64; N]) -> [f64; M],

@@ -4,7 +4,7 @@
 //! vanish. In floating point each is rounded first, and for small `k` their
 //! roundings are larger than the result.
 
-use super::{Singularity, loss, quote, span};
+use super::{Singularity, called, loss, quote, span};
 use crate::diag::{Diagnostic, codes};
 use crate::program::{BinaryOp, ExprId, Node, Pool, Program, UnaryOp};
 use crate::show::{Precision, sentence};
@@ -45,7 +45,7 @@ pub(super) fn findings(program: &Program, singularities: &[Singularity]) -> Vec<
                 factor => format!("{} * {}", Precision::F32.show(factor), quote(program, quotient.term)),
             };
             let divisor = quote(program, divisor);
-            let message = format!("in `{}` the term `{term} / ({divisor})` cancels on paper only", program.name);
+            let message = format!("in `{}` the term `{term} / ({divisor})` cancels on paper only", called(program));
             let mut diagnostic = Diagnostic::warning(codes::CANCELS, message);
             if let Some(span) = span(program, &singularity.point) {
                 diagnostic = diagnostic.at(span, "both sides of a difference have this term");

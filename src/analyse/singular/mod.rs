@@ -59,7 +59,6 @@ pub struct Singularity {
 pub fn singularities(program: &Program) -> Vec<Singularity> {
     let divisors = divisors(program);
     let Some(mut judge) = (!divisors.is_empty()).then(|| Precise::new(program)).flatten() else { return Vec::new() };
-    let bases = points::inside(program, points::BASES);
     let mut normaliser = Normaliser::default();
     let mut found: BTreeMap<String, Singularity> = BTreeMap::new();
     for divisor in divisors {
@@ -68,8 +67,14 @@ pub fn singularities(program: &Program) -> Vec<Singularity> {
             if found.contains_key(&place) {
                 continue;
             }
-            let candidates = bases.iter().flat_map(|base| zero.near(program, base));
-            let Some(point) = candidates.into_iter().find(|point| fails_at(program, divisor, point)) else { continue };
+            // Moving an input to the zero may leave the domain, so what is declared is asked afterwards.
+            let candidates = points::drawn(program, tries(&zero)).flat_map(|base| zero.near(program, &base));
+            let zero_at = |point: &Vec<Value>| Trace::<f32>::of(program, point, divisor) == 0.0;
+            let inside = candidates.filter(|point| zero_at(point) && points::holds(program, point));
+            // Where a guard keeps the division away, it does so at most points.
+            let Some(point) = inside.take(points::BASES).find(|point| fails_at(program, divisor, point)) else {
+                continue;
+            };
             let result = Trace::<f32>::run(program, &point).result.iter().map(|v| f64::from(*v)).collect();
             let limit = match judge.limit(&given(&point)) {
                 Ok(limit) => Some(limit),
@@ -81,6 +86,11 @@ pub fn singularities(program: &Program) -> Vec<Singularity> {
         }
     }
     found.into_values().collect()
+}
+
+/// How many points to begin with: a search along every input is expensive.
+fn tries(zero: &Zero) -> usize {
+    if matches!(zero, Zero::Somewhere(_)) { points::BASES } else { 100 * points::BASES }
 }
 
 /// Whether the program divides by this expression there, and it is zero.
@@ -100,10 +110,11 @@ fn given(point: &[Value]) -> Vec<Option<Value>> {
 fn divisors(program: &Program) -> Vec<ExprId> {
     let mut all: Vec<ExprId> = Vec::new();
     for expr in expressions(program) {
-        if let Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) = program.pool.node(expr) {
-            if program.pool.constant(b).is_none_or(|b| b == 0.0) && !all.contains(&b) {
-                all.push(b);
-            }
+        if let Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) = program.pool.node(expr)
+            && program.pool.constant(b).is_none_or(|b| b == 0.0)
+            && !all.contains(&b)
+        {
+            all.push(b);
         }
     }
     all
@@ -205,35 +216,49 @@ pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
         return Vec::new();
     }
     let singularities = singularities(program);
-    let mut all: Vec<Diagnostic> = singularities.iter().map(|s| describe(program, s)).collect();
+    let (removable, poles): (Vec<_>, Vec<_>) = singularities.iter().partition(|s| s.limit.is_some());
+    let mut all: Vec<Diagnostic> = [removable, poles].iter().filter_map(|group| describe(program, group)).collect();
     all.extend(cancel::findings(program, &singularities));
     all.extend(overflows(program));
     all
 }
 
-fn describe(program: &Program, singularity: &Singularity) -> Diagnostic {
-    let Singularity { place, divisor, point, result, limit, .. } = singularity;
+/// One finding for all places of a kind: a formula has many, and they have one cause.
+fn describe(program: &Program, places: &[&Singularity]) -> Option<Diagnostic> {
+    let first = places.first()?;
     let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);
-    let name = &program.name;
-    let divisor = quote(program, *divisor);
-    let mut diagnostic = match limit {
+    let name = called(program);
+    let listed = places.iter().map(|s| s.place.as_str()).collect::<Vec<_>>().join(", ");
+    let mut diagnostic = match first.limit {
         Some(_) => {
-            let message = format!("`{name}` divides by zero at {place}, where its value is finite");
+            let message = format!("`{name}` divides by zero at {listed}, where its value is finite");
             Diagnostic::warning(codes::REMOVABLE, message)
         }
         None => {
-            Diagnostic::warning(codes::POLE, format!("`{name}` divides by zero at {place}, and has no limit there"))
+            Diagnostic::warning(codes::POLE, format!("`{name}` divides by zero at {listed}, and has no limit there"))
         }
     };
-    if let Some(span) = span(program, point) {
-        diagnostic = diagnostic.at(span, format!("the divisor `{divisor}` is zero here"));
+    let mut divisors: Vec<String> = Vec::new();
+    for singularity in places {
+        let divisor = format!("`{}`", quote(program, singularity.divisor));
+        if !divisors.contains(&divisor) {
+            divisors.push(divisor);
+        }
     }
-    let fate = match limit {
-        Some(limit) => format!("f32 gives {}, the limit is {}", shown(result), shown(limit)),
-        None => format!("f32 gives {}, and beside it the values differ or are not finite", shown(result)),
-    };
-    diagnostic = diagnostic.help(format!("at {}: {fate}", at(program, point)));
-    if let Some(loss) = limit.as_ref().and_then(|_| loss(program, singularity)) {
+    if let Some(span) = span(program, &first.point) {
+        diagnostic = diagnostic.at(span, format!("divides by {}", divisors.join(", ")));
+    }
+    for singularity in places {
+        let Singularity { place, point, result, limit, .. } = singularity;
+        let result = shown(result);
+        let fate = match limit {
+            Some(limit) => format!("f32 gives {result}, the limit is {}", shown(limit)),
+            None => format!("f32 gives {result}, and beside it the values differ or are not finite"),
+        };
+        diagnostic = diagnostic.help(format!("{place}: {fate}, at {}", at(program, point)));
+    }
+    let lost = places.iter().filter(|s| s.limit.is_some()).find_map(|s| loss(program, s));
+    if let Some(loss) = lost {
         diagnostic = diagnostic.help(format!(
             "digits are lost nearby as well: at {} f32 gives {}, exact is {}",
             loss.place,
@@ -241,10 +266,15 @@ fn describe(program: &Program, singularity: &Singularity) -> Diagnostic {
             shown(&loss.exact)
         ));
     }
-    match limit {
+    Some(match first.limit {
         Some(_) => diagnostic.help("`umbrage stabilise` looks for a form without this division"),
         None => diagnostic.help("exclude the place from the domain, or give it a case of its own"),
-    }
+    })
+}
+
+/// The name in the table.
+fn called(program: &Program) -> &str {
+    program.function.as_ref().map_or(&program.name, |function| &function.name)
 }
 
 /// A point near a singularity where the digits of the result are gone.
@@ -273,7 +303,7 @@ pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss>
             let got: Vec<f64> = Trace::<f32>::run(program, &point).result.iter().map(|v| f64::from(*v)).collect();
             let Ok(exact) = judge.value(&given(&point)) else { continue };
             let lost = got.iter().zip(&exact).any(|(got, exact)| {
-                exact.is_finite() && exact.abs() > 1e-6 && !((got - exact).abs() <= LOST * exact.abs())
+                got.is_finite() && exact.is_finite() && exact.abs() > 1e-6 && (got - exact).abs() > LOST * exact.abs()
             });
             if lost {
                 let name = &program.inputs[input.index()].name;
@@ -309,7 +339,7 @@ fn overflows(program: &Program) -> Vec<Diagnostic> {
         }
         let got: Vec<f64> = trace.result.iter().map(|v| f64::from(*v)).collect();
         let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);
-        let message = format!("`{}` overflows on the way to a value that is finite", program.name);
+        let message = format!("`{}` overflows on the way to a value that is finite", called(program));
         let mut diagnostic = Diagnostic::warning(codes::OVERFLOW, message);
         if let Some(span) = span(program, &point) {
             diagnostic = diagnostic.at(span, format!("`{}` is infinite in f32", quote(program, *first)));

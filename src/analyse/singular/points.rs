@@ -1,5 +1,6 @@
 //! Points of the domain at which things are tried out: the same in every run.
 
+use super::trace::Trace;
 use crate::program::{Domain, Program, Value};
 
 /// Points inside that a search starts from.
@@ -11,22 +12,35 @@ const CORNERS: usize = 256;
 /// Beyond this a range is sampled by magnitude.
 const MODEST: f64 = 8.0;
 
-/// Points inside the domain, spread evenly; wide ranges are sampled where people work, near zero.
+/// Points that are drawn for each one that is wanted: conditions on a domain may leave few of them.
+const DRAWS: usize = 200;
+
+/// Points inside the domain, spread evenly, at which the declared conditions hold; wide ranges are sampled
+/// where people work, near zero.
 pub fn inside(program: &Program, count: usize) -> Vec<Vec<Value>> {
-    (0..count)
-        .map(|i| {
-            let values = program.inputs.iter().enumerate().map(|(place, input)| {
-                // Multiples of an irrational number, another one for each input, fill the unit interval evenly.
-                let irrational = 0.618_033_988_75 + 0.414_213_562_37 * place as f64;
-                let part = (irrational * (i + 1) as f64 + 0.31 * place as f64).fract();
-                match &input.domain {
-                    Domain::Discrete(levels) => Value::Level((part * levels.count() as f64) as u8),
-                    Domain::Continuous { lo, hi, .. } => Value::Number(number(*lo, *hi, part)),
-                }
-            });
-            values.collect()
-        })
-        .collect()
+    drawn(program, count * DRAWS).filter(|point| holds(program, point)).take(count).collect()
+}
+
+/// Whether the declared conditions hold at a point.
+pub(super) fn holds(program: &Program, point: &[Value]) -> bool {
+    program.assumptions.iter().all(|assumption| Trace::<f64>::condition(program, point, assumption.condition))
+}
+
+/// Points of the ranges of all inputs, whatever else is declared of them.
+pub(super) fn drawn(program: &Program, count: usize) -> impl Iterator<Item = Vec<Value>> + '_ {
+    (0..count).map(|i| {
+        let values = program.inputs.iter().enumerate().map(|(place, input)| {
+            // Multiples of an irrational number, another one for each input, fill the unit interval evenly.
+            let irrational = 0.618_033_988_75 + 0.414_213_562_37 * place as f64;
+            let part = (irrational * (i + 1) as f64 + 0.31 * place as f64).fract();
+            match &input.domain {
+                Domain::Discrete(levels) => Value::Level((part * levels.count() as f64) as u8),
+                Domain::Continuous { lo, hi, .. } if i % 4 == 3 => Value::Number(by_size(*lo, *hi, part)),
+                Domain::Continuous { lo, hi, .. } => Value::Number(number(*lo, *hi, part)),
+            }
+        });
+        values.collect()
+    })
 }
 
 fn number(lo: f64, hi: f64, part: f64) -> f64 {
@@ -34,6 +48,21 @@ fn number(lo: f64, hi: f64, part: f64) -> f64 {
     let (from, to) = if inner_lo < inner_hi { (inner_lo, inner_hi) } else { (lo, hi) };
     // Rounded as an input is, and never outside.
     f64::from((from + (to - from) * part) as f32).clamp(lo, hi)
+}
+
+/// As many in each decade of a wide range.
+fn by_size(lo: f64, hi: f64, part: f64) -> f64 {
+    let largest = lo.abs().max(hi.abs());
+    if largest <= MODEST || lo.max(-MODEST) >= hi.min(MODEST) {
+        return number(lo, hi, part);
+    }
+    // The parts below and above one half have opposite signs where the range has both.
+    let (sign, part) = match lo < 0.0 && hi > 0.0 {
+        true => (if part < 0.5 { -1.0 } else { 1.0 }, (2.0 * part).fract()),
+        false => (if hi > 0.0 { 1.0 } else { -1.0 }, part),
+    };
+    let size = libm::exp(libm::log(1e-3) + (libm::log(largest) - libm::log(1e-3)) * part);
+    f64::from((sign * size) as f32).clamp(lo, hi)
 }
 
 /// Combinations of the ends of all ranges and their middles.
@@ -63,5 +92,6 @@ pub(super) fn corners(program: &Program) -> Vec<Vec<Value>> {
             };
             choices.iter().map(pick).collect()
         })
+        .filter(|point: &Vec<Value>| holds(program, point))
         .collect()
 }

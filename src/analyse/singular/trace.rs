@@ -33,6 +33,12 @@ impl<'p, T: Real> Trace<'p, T> {
         trace.number(expr)
     }
 
+    /// Whether a condition holds at a point.
+    pub(super) fn condition(program: &'p Program, point: &'p [Value], condition: CondId) -> bool {
+        let mut trace = Self { program, point, order: Vec::new(), values: HashMap::new(), result: Vec::new() };
+        trace.holds(condition)
+    }
+
     /// The value of an expression, if it was evaluated.
     pub(super) fn value(&self, expr: ExprId) -> Option<T> {
         self.values.get(&expr).copied()

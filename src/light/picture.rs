@@ -1,0 +1,208 @@
+//! Pictures of a scene: by the tables, and by brute force.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+use image::{Rgb, RgbImage};
+use rayon::prelude::*;
+
+use super::cells::{Division, Edge, divide};
+use super::tables::Machine;
+use super::{Executor, Lobe, Scene, Settings, Surface, Tables};
+use crate::diag::Failure;
+
+/// Angle of view from bottom to top.
+const VIEW: f64 = 0.7;
+
+/// Points whose edges are evaluated together.
+const PORTION: usize = 2048;
+
+/// What is computed for a picture, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shaded {
+    /// Its width in pixels.
+    pub width: u32,
+    /// Its height.
+    pub height: u32,
+    /// Light that is sent to the camera; `None` where nothing is hit.
+    pub light: Vec<Option<DVec3>>,
+    /// Cells with a visible part, per pixel.
+    pub cells: Vec<u32>,
+    /// Edges that were integrated, per pixel.
+    pub edges: Vec<u32>,
+}
+
+/// The surfaces behind the pixels of a picture.
+pub fn surfaces(scene: &Scene, width: u32, height: u32) -> Vec<Option<Surface>> {
+    let forward = (scene.target - scene.eye).normalize();
+    let right = forward.cross(DVec3::Z).normalize();
+    let up = right.cross(forward);
+    let scale = (0.5 * VIEW).tan() / (0.5 * f64::from(height));
+    let pixel = |i: u32| {
+        let x = (f64::from(i % width) + 0.5 - 0.5 * f64::from(width)) * scale;
+        let y = (0.5 * f64::from(height) - f64::from(i / width) - 0.5) * scale;
+        scene.hit(scene.eye, (forward + right * x + up * y).normalize())
+    };
+    (0..width * height).into_par_iter().map(pixel).collect()
+}
+
+/// A picture by the tables.
+///
+/// # Errors
+/// If a table does not have the functions that it should, or a device fails.
+pub fn shade<'t>(
+    scene: &Scene,
+    tables: &'t Tables,
+    executor: &Executor<'t>,
+    settings: &Settings,
+    width: u32,
+    height: u32,
+) -> Result<Shaded, Failure> {
+    let surfaces = surfaces(scene, width, height);
+    let some = |surfaces: &[Option<Surface>]| -> Result<Vec<Pixel>, Failure> {
+        let mut machine = executor.machine(tables);
+        let portions =
+            surfaces.chunks(PORTION).map(|portion| shade_some(scene, tables, &mut machine, settings, portion));
+        Ok(portions.collect::<Result<Vec<_>, Failure>>()?.into_iter().flatten().collect())
+    };
+    let parts: Vec<Vec<Pixel>> = match executor {
+        Executor::Interpreter => {
+            // A part for each thread, as every interpreter has to specialise the tables for itself.
+            let part = surfaces.len().div_ceil(rayon::current_num_threads()).max(1);
+            surfaces.par_chunks(part).map(some).collect::<Result<_, Failure>>()?
+        }
+        // A device takes its work in portions, one after the other.
+        Executor::Shaders(..) => vec![some(&surfaces)?],
+    };
+    let all: Vec<Pixel> = parts.into_iter().flatten().collect();
+    Ok(Shaded {
+        width,
+        height,
+        light: all.iter().map(|pixel| pixel.light).collect(),
+        cells: all.iter().map(|pixel| pixel.cells).collect(),
+        edges: all.iter().map(|pixel| pixel.edges).collect(),
+    })
+}
+
+/// What is computed for one pixel.
+struct Pixel {
+    light: Option<DVec3>,
+    cells: u32,
+    edges: u32,
+}
+
+/// Light, cells and edges of some surfaces.
+fn shade_some(
+    scene: &Scene,
+    tables: &Tables,
+    machine: &mut Machine<'_, '_>,
+    settings: &Settings,
+    surfaces: &[Option<Surface>],
+) -> Result<Vec<Pixel>, Failure> {
+    let division = |surface: &Option<Surface>| match surface {
+        Some(surface) => divide(surface.normal, &scene.caps(surface), &scene.lobes, settings),
+        None => Division::default(),
+    };
+    let divisions: Vec<Division> = surfaces.par_iter().map(division).collect();
+    // One after the other in one list, so that each table is evaluated once.
+    let mut all = Division::default();
+    let mut ends = Vec::with_capacity(surfaces.len());
+    for division in divisions {
+        let first = all.cells.len();
+        all.edges.extend(division.edges.into_iter().map(|edge| Edge { cell: edge.cell + first, ..edge }));
+        all.cells.extend(division.cells);
+        ends.push((all.cells.len(), all.edges.len()));
+    }
+    let lines = tables.lines(machine, &all.cells, &scene.lobes)?;
+    let moments = tables.moments(machine, &all.edges)?;
+    let mut result = Vec::with_capacity(surfaces.len());
+    let (mut cell, mut edge) = (0, 0);
+    for (surface, (last_cell, last_edge)) in surfaces.iter().zip(ends) {
+        let light = surface.as_ref().map(|surface| {
+            let mut sum = DVec3::ZERO;
+            for (edge, moments) in all.edges[edge..last_edge].iter().zip(&moments[edge..last_edge]) {
+                let (along, tensor) = (moments.first.dot(surface.normal), moments.times(surface.normal));
+                for (index, lobe) in scene.lobes.iter().enumerate() {
+                    let (alpha, beta) = lines[edge.cell * scene.lobes.len() + index];
+                    sum += lobe.amplitude * (edge.sign * (alpha * along + beta * lobe.axis.dot(tensor)));
+                }
+            }
+            sum * surface.albedo / PI
+        });
+        result.push(Pixel { light, cells: (last_cell - cell) as u32, edges: (last_edge - edge) as u32 });
+        (cell, edge) = (last_cell, last_edge);
+    }
+    Ok(result)
+}
+
+/// The light at a surface by a sum over these directions.
+pub fn brute_force(scene: &Scene, surface: &Surface, directions: &[(DVec3, DVec3)]) -> DVec3 {
+    let caps: Vec<(DVec3, f64)> = scene.caps(surface).iter().map(|cap| (cap.axis, cap.angle.cos())).collect();
+    let visible = |direction: DVec3| caps.iter().all(|(axis, cosine)| axis.dot(direction) < *cosine);
+    let sum: DVec3 = directions
+        .iter()
+        .map(|(direction, light)| {
+            let cosine = surface.normal.dot(*direction);
+            if cosine > 0.0 && visible(*direction) { *light * cosine } else { DVec3::ZERO }
+        })
+        .sum();
+    sum * surface.albedo / PI
+}
+
+/// Directions of equal solid angle with the light from each, times that solid angle.
+pub fn directions(lobes: &[Lobe], fineness: u32) -> Vec<(DVec3, DVec3)> {
+    let around = 2 * fineness;
+    let solid = 4.0 * PI / f64::from(fineness * around);
+    let direction = |i: u32| {
+        let z = 1.0 - 2.0 * (f64::from(i / around) + 0.5) / f64::from(fineness);
+        let phi = TAU * (f64::from(i % around) + 0.5) / f64::from(around);
+        let flat = (1.0 - z * z).sqrt();
+        let direction = DVec3::new(flat * phi.cos(), flat * phi.sin(), z);
+        (direction, lobes.iter().map(|lobe| lobe.value(direction)).sum::<DVec3>() * solid)
+    };
+    (0..fineness * around).map(direction).collect()
+}
+
+/// The picture of light as the eye sees it; what is hit by no ray is the sky's colour.
+pub fn developed(width: u32, height: u32, light: &[Option<DVec3>]) -> RgbImage {
+    RgbImage::from_fn(width, height, |x, y| {
+        let light = light.get((y * width + x) as usize).copied().flatten().unwrap_or(DVec3::new(0.75, 0.82, 0.9));
+        let level = |v: f64| (v.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0).round() as u8;
+        Rgb([level(light.x), level(light.y), level(light.z)])
+    })
+}
+
+/// A map of counts: black for none, through blue and orange to white for `most`.
+pub fn counted(width: u32, height: u32, counts: &[u32], most: u32) -> RgbImage {
+    RgbImage::from_fn(width, height, |x, y| {
+        let count = counts.get((y * width + x) as usize).copied().unwrap_or(0);
+        let part = f64::from(count) / f64::from(most.max(1));
+        let ramp = |from: f64| ((part * 3.0 - from).clamp(0.0, 1.0) * 255.0).round() as u8;
+        Rgb([ramp(1.0), ramp(1.5), if part < 0.5 { ramp(0.0) / 2 } else { ramp(2.0) }])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_and_brute_force_agree() {
+        let scene = Scene::example();
+        let tables = Tables::new().unwrap_or_else(|e| panic!("{e}"));
+        let (width, height) = (16, 9);
+        let settings = Settings::with_threshold(0.03);
+        let shaded = shade(&scene, &tables, &Executor::Interpreter, &settings, width, height);
+        let shaded = shaded.unwrap_or_else(|e| panic!("{e}"));
+        let directions = directions(&scene.lobes, 96);
+        let (mut error, mut whole) = (0.0, 0.0);
+        for (surface, light) in surfaces(&scene, width, height).iter().zip(&shaded.light) {
+            let (Some(surface), Some(light)) = (surface, light) else { continue };
+            let exact = brute_force(&scene, surface, &directions);
+            error += (*light - exact).length_squared();
+            whole += exact.length_squared();
+        }
+        let relative = f64::sqrt(error / whole);
+        assert!(relative < 0.02, "{relative}");
+    }
+}

@@ -1,0 +1,293 @@
+//! How accurate the tables of integrals are in `f32`, against quadrature of what they stand for.
+//!
+//! The error of every result must stay below a small multiple of what the
+//! inputs' own rounding can change, plus half a unit in the last place of the
+//! natural scale. Inputs are random of every size, and at and beside every
+//! place where the printed formulas divide by zero.
+
+mod inputs;
+mod oracle;
+
+use std::collections::BTreeMap;
+
+use inputs::{Cell, Random, SLOPES, cell};
+use oracle::{EPSILON, Rules, sensitivity};
+use umbrage::eval::{Interpreter, Precise};
+use umbrage::program::{Program, Value};
+
+/// A function of a table, called by names of parameters.
+struct Function(Program);
+
+impl Function {
+    fn read(table: &str, name: &str) -> Self {
+        let path = format!("{}/tables/{table}.ron", env!("CARGO_MANIFEST_DIR"));
+        Self(Program::read_function(path, Some(name)).unwrap_or_else(|e| panic!("{e}")))
+    }
+
+    fn point(&self, named: &[(&str, f32)]) -> Vec<Option<Value>> {
+        let value = |name: &str| named.iter().find(|(n, _)| *n == name).map(|(_, v)| Value::Number(f64::from(*v)));
+        self.0.inputs.iter().map(|input| value(&input.name)).collect()
+    }
+
+    fn call(&self, named: &[(&str, f32)]) -> Vec<f64> {
+        let point = self.point(named);
+        let outcome = Interpreter::<f32>::new(&self.0).evaluate(&point).expect("every parameter is given");
+        outcome.values.iter().map(|v| f64::from(*v)).collect()
+    }
+}
+
+/// Errors in units of what is allowed.
+#[derive(Default)]
+struct Errors(BTreeMap<&'static str, Vec<f64>>);
+
+impl Errors {
+    fn add(
+        &mut self,
+        name: &'static str,
+        got: f64,
+        exact: f64,
+        sensitivity: f64,
+        scale: f64,
+        inputs: &dyn std::fmt::Debug,
+    ) {
+        assert!(got.is_finite(), "{name} is {got} at {inputs:?}, exact is {exact}");
+        // A subnormal result may be off by the smallest normal number.
+        let allowed = sensitivity + EPSILON * scale + f64::from(f32::MIN_POSITIVE);
+        let units = (got - exact).abs() / allowed;
+        if units > 16.0 {
+            println!("{name}: {units:.1} units at {inputs:?}: {got:e} instead of {exact:e}");
+        }
+        self.0.entry(name).or_default().push(units);
+    }
+
+    /// Checks that 99.5 % of the errors are within `target` and all within `limit`.
+    fn check(self, target: f64, limit: f64) {
+        let mut bad = Vec::new();
+        for (name, mut units) in self.0 {
+            units.sort_by(f64::total_cmp);
+            let (most, worst) = (units[units.len() * 995 / 1000], units[units.len() - 1]);
+            println!("{name:<8} {:>6} inputs, 99.5 % within {most:.2} units, worst {worst:.2}", units.len());
+            if most > target || worst > limit {
+                bad.push(format!("{name}: {most:.2} and {worst:.2}"));
+            }
+        }
+        assert!(bad.is_empty(), "beyond {target} and {limit} units: {bad:?}");
+    }
+}
+
+const C: [&str; 6] = ["C0", "C1", "C2", "C3", "C4", "C5"];
+
+fn c_input(random: &mut Random) -> [f32; 6] {
+    let width = random.pick(&[0.0, 1.0, 1.0, 1.0]) * random.by_size(1e-4, 1.57);
+    let phi0 = random.between(-1.0, 6.25 - width) as f32;
+    let phi1 = (f64::from(phi0) + width) as f32;
+    let s = match random.pick(&[0, 1]) {
+        0 => random.between(-12.0, 12.0) as f32,
+        _ => random.near(&[0.0, 1.0, -1.0, 2.0, -2.0]),
+    };
+    let angle = |random: &mut Random| random.between(-3.2, 3.2) as f32;
+    [phi0, phi1, angle(random), angle(random), s, random.between(-8.0, 8.0) as f32]
+}
+
+#[test]
+fn the_c_functions() {
+    let (rules, mut random, mut errors) = (Rules::new(), Random::new(1), Errors::default());
+    for (index, name) in C.into_iter().enumerate() {
+        let function = Function::read("double_product", name);
+        for _ in 0..1500 {
+            let input = c_input(&mut random);
+            let [phi0, phi1, p, q, s, t] = input;
+            let got = function.call(&[("phi0", phi0), ("phi1", phi1), ("p", p), ("q", q), ("s", s), ("t", t)]);
+            let f = |input: [f64; 6]| [rules.c(index, input)];
+            let exact = f(input.map(f64::from));
+            let sens = sensitivity(input, exact, f)[0];
+            let width = f64::from(phi1) - f64::from(phi0);
+            let scale = if index == 3 { width * f64::from(phi0.abs().max(phi1.abs())) } else { width };
+            errors.add(name, got[0], exact[0], sens, scale, &input);
+        }
+    }
+    errors.check(4.0, 16.0);
+}
+
+const PARTS: [&str; 9] = ["A0", "A1", "A", "B0", "B1", "B2", "B3", "B", "Lo"];
+
+/// Parameters of a cell with its vectors.
+fn cell_input(random: &mut Random) -> [f32; 12] {
+    let Cell { phi0, phi1, theta0, k, b } = cell(random);
+    let ([nx, ny, nz], [px, py, pz]) = (random.vector(), random.vector());
+    [phi0, phi1, theta0, k, b, nx, ny, nz, px, py, pz, random.between(-1.0, 1.0) as f32]
+}
+
+const CELL: [&str; 12] = ["phi0", "phi1", "theta0", "k", "b", "nx", "ny", "nz", "px", "py", "pz", "alpha_star"];
+
+/// All parts, and the solid angle, at the parameters [`CELL`].
+fn cell_parts(rules: &Rules, input: [f64; 12]) -> ([f64; 9], f64) {
+    let [phi0, phi1, theta0, k, b, nx, ny, nz, px, py, pz, alpha] = input;
+    let moments = Cell::moments(rules, [phi0, phi1, theta0, k, b]);
+    (moments.parts([nx, ny, nz], [px, py, pz], alpha), moments.solid)
+}
+
+/// The scales of the parts.
+fn scales(input: &[f64; 12], solid: f64) -> [f64; 9] {
+    let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let (n, p) = (size(&input[5..8]), size(&input[8..11]));
+    let plain = solid;
+    [plain, plain, plain * n, plain, plain, plain, plain, plain * n * p, plain * n * (p + input[11].abs())]
+}
+
+#[test]
+fn the_parts_of_a_and_b() {
+    let (rules, mut random, mut errors) = (Rules::new(), Random::new(2), Errors::default());
+    let functions = PARTS.map(|name| Function::read("double_product", name));
+    for _ in 0..1200 {
+        let input = cell_input(&mut random);
+        let wide = input.map(f64::from);
+        let (exact, solid) = cell_parts(&rules, wide);
+        let sens = sensitivity(input, exact, |input| cell_parts(&rules, input).0);
+        let named: Vec<(&str, f32)> = CELL.into_iter().zip(input).collect();
+        let scales = scales(&wide, solid);
+        for (i, name) in PARTS.into_iter().enumerate() {
+            let got = functions[i].call(&named)[0];
+            errors.add(name, got, exact[i], sens[i], scales[i], &input);
+        }
+    }
+    errors.check(4.0, 16.0);
+}
+
+#[test]
+fn the_light_of_a_cell_between_two_ends() {
+    let (rules, mut random, mut errors) = (Rules::new(), Random::new(3), Errors::default());
+    let function = Function::read("double_product", "Lo_ends");
+    for _ in 0..1200 {
+        let mut input = cell_input(&mut random);
+        let ends = [input[0], input[1]].map(|phi| (input[3] * phi + input[4]).clamp(0.0, std::f32::consts::PI));
+        [input[3], input[4]] = ends;
+        let f = |input: [f64; 12]| {
+            let [phi0, phi1, theta0, theta_a, theta_b, nx, ny, nz, px, py, pz, alpha] = input;
+            let slope = if phi1 == phi0 { 0.0 } else { (theta_b - theta_a) / (phi1 - phi0) };
+            let moments = rules.moments((phi0, phi1), theta0, |phi| theta_a + slope * (phi - phi0));
+            ([moments.parts([nx, ny, nz], [px, py, pz], alpha)[8]], moments.solid)
+        };
+        let wide = input.map(f64::from);
+        let (exact, solid) = f(wide);
+        let sens = sensitivity(input, exact, |input| f(input).0);
+        let mut named: Vec<(&str, f32)> = CELL.into_iter().zip(input).collect();
+        (named[3].0, named[4].0) = ("theta_a", "theta_b");
+        let got = function.call(&named)[0];
+        errors.add("Lo_ends", got, exact[0], sens[0], scales(&wide, solid)[8], &input);
+    }
+    errors.check(2.0, 16.0);
+}
+
+#[test]
+fn the_linear_approximation_of_a_gaussian() {
+    let (rules, mut random) = (Rules::new(), Random::new(4));
+    let (mut close, mut wide_errors) = (Errors::default(), Errors::default());
+    let names = ["r0", "r1", "alpha", "beta", "e1", "e2"];
+    let functions = names.map(|name| Function::read("spherical_gaussian", name));
+    for i in 0..2000 {
+        let width = random.pick(&[0.0, 1.0, 1.0, 1.0]) * random.by_size(1e-5, 2.0);
+        let b = random.between(-1.0 + width, 1.0) as f32;
+        let a = ((f64::from(b) - width) as f32).max(-1.0);
+        let lambda = match i % 10 {
+            0 => 0.0,
+            1 => 1e6,
+            _ => random.by_size(1e-3, 1e3),
+        } as f32;
+        let input = [random.between(0.0, 2.0) as f32, lambda, a, b];
+        let f = |[mu, lambda, a, b]: [f64; 4]| {
+            let [r0, r1, alpha, beta] = oracle::linear([mu, lambda, a, b]);
+            let [e1, e2] = oracle::error(&rules, [mu, lambda, a, b]);
+            [r0, r1, alpha, beta, e1, e2]
+        };
+        let wide = input.map(f64::from);
+        let exact = f(wide);
+        let sens = sensitivity(input, exact, |[mu, lambda, a, b]| f([mu, lambda.max(0.0), a.min(b), b]));
+        let named: Vec<(&str, f32)> = ["mu", "lambda", "a", "b"].into_iter().zip(input).collect();
+        for (j, name) in names.into_iter().enumerate() {
+            let got = functions[j].call(&named)[0];
+            let p = 0.5 * (wide[2] + wide[3]);
+            let scale = if name == "alpha" { exact[0].abs() + (exact[3] * p).abs() } else { exact[j].abs() };
+            let errors = if j < 4 { &mut close } else { &mut wide_errors };
+            errors.add(name, got, exact[j], sens[j], scale, &input);
+        }
+    }
+    close.check(4.0, 8.0);
+    wide_errors.check(8.0, 32.0);
+}
+
+#[test]
+fn the_interval_of_a_cell() {
+    let mut random = Random::new(5);
+    let function = Function::read("spherical_gaussian", "interval");
+    for _ in 0..400 {
+        let (phi0, theta0) = (random.between(-3.0, 6.0) as f32, random.pick(&[0.0, 0.4, 1.5, 3.0]) as f32);
+        let phi1 = phi0 + random.by_size(1e-3, 3.0) as f32;
+        let theta1 = (theta0 + random.by_size(1e-3, 2.0) as f32).min(std::f32::consts::PI);
+        let axis = random.vector();
+        let length = axis.iter().map(|x| x * x).sum::<f32>().sqrt();
+        let [ax, ay, az] = axis.map(|x| x / length);
+        let got = function.call(&[
+            ("phi0", phi0),
+            ("phi1", phi1),
+            ("theta0", theta0),
+            ("theta1", theta1),
+            ("ax", ax),
+            ("ay", ay),
+            ("az", az),
+        ]);
+        // The extremes of a fine grid are inside, and not farther inside than its step allows.
+        let (mut lo, mut hi) = (f64::INFINITY, f64::NEG_INFINITY);
+        let steps = 64;
+        for i in 0..=steps * steps + 2 * steps {
+            let (x, y) = (i % (steps + 1), i / (steps + 1));
+            let at = |from: f32, to: f32, part: i32| {
+                f64::from(from) + (f64::from(to) - f64::from(from)) * f64::from(part) / f64::from(steps)
+            };
+            let (phi, theta) = (at(phi0, phi1, x), at(theta0, theta1, y));
+            let cosine = f64::from(ax) * phi.cos() * theta.sin()
+                + f64::from(ay) * phi.sin() * theta.sin()
+                + f64::from(az) * theta.cos();
+            (lo, hi) = (lo.min(cosine), hi.max(cosine));
+        }
+        let cell = f64::from(phi1 - phi0).max(f64::from(theta1 - theta0)) / f64::from(steps);
+        let slack = 0.5 * cell * cell + 1e-6;
+        assert!(
+            got[0] <= lo + 1e-6 && got[0] >= lo - slack,
+            "{got:?} {lo} {phi0} {phi1} {theta0} {theta1} {ax} {ay} {az}"
+        );
+        assert!(
+            got[1] >= hi - 1e-6 && got[1] <= hi + slack,
+            "{got:?} {hi} {phi0} {phi1} {theta0} {theta1} {ax} {ay} {az}"
+        );
+    }
+}
+
+/// The printed closed forms in 384 bits, singular points by their limits, are the integrals; so the
+/// quadrature above is right as well.
+#[test]
+fn the_printed_forms_are_the_integrals() {
+    let (rules, mut random) = (Rules::new(), Random::new(6));
+    for (i, name) in PARTS.into_iter().enumerate() {
+        let function = Function::read("double_product_printed", name);
+        let mut precise = Precise::new(&function.0).expect("memory");
+        for round in 0..6 {
+            let mut input = cell_input(&mut random);
+            // Without a horizontal part a vector has no phase, and the parts by themselves no value.
+            while input[0] == input[1] || (input[5], input[6]) == (0.0, 0.0) || (input[8], input[9]) == (0.0, 0.0) {
+                input = cell_input(&mut random);
+            }
+            if round % 2 == 0 {
+                let slope = SLOPES[random.pick(&[0, 1, 2, 3, 4, 9, 10])] as f32;
+                let middle = 0.5 * (input[0] + input[1]);
+                (input[4], input[3]) = (input[4] + (input[3] - slope) * middle, slope);
+            }
+            let (exact, _) = cell_parts(&rules, input.map(f64::from));
+            let named: Vec<(&str, f32)> = CELL.into_iter().zip(input).collect();
+            let limit = precise.limit(&function.point(&named));
+            let got = limit.unwrap_or_else(|e| panic!("{name} at {input:?}: {e:?}"))[0];
+            let solid = cell_parts(&rules, input.map(f64::from)).1;
+            assert!((got - exact[i]).abs() <= 1e-11 * solid.max(1e-3), "{name} at {input:?}: {got} {}", exact[i]);
+        }
+    }
+}
