@@ -103,7 +103,7 @@ pub(super) fn run(arguments: &Arguments, _report: &Report) -> Result<Outcome> {
     };
     #[cfg(feature = "gpu")]
     let (executor, place) = match &gpu {
-        Some(gpu) => (Executor::Shaders(tables.on(gpu)?), format!("tables on {}", gpu.describe())),
+        Some(gpu) => (Executor::Shaders(Box::new(tables.on(gpu)?)), format!("tables on {}", gpu.describe())),
         None => (Executor::Interpreter, "tables by the interpreter".to_owned()),
     };
     #[cfg(not(feature = "gpu"))]

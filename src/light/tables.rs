@@ -183,7 +183,7 @@ pub enum Executor<'t> {
     Interpreter,
     /// Shaders made from the tables.
     #[cfg(feature = "gpu")]
-    Shaders(Shaders<'t>),
+    Shaders(Box<Shaders<'t>>),
     /// What is not there, as no device is.
     #[cfg(not(feature = "gpu"))]
     Shaders(std::convert::Infallible, std::marker::PhantomData<&'t ()>),

@@ -110,10 +110,11 @@ fn given(point: &[Value]) -> Vec<Option<Value>> {
 fn divisors(program: &Program) -> Vec<ExprId> {
     let mut all: Vec<ExprId> = Vec::new();
     for expr in expressions(program) {
-        if let Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) = program.pool.node(expr) {
-            if program.pool.constant(b).is_none_or(|b| b == 0.0) && !all.contains(&b) {
-                all.push(b);
-            }
+        if let Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) = program.pool.node(expr)
+            && program.pool.constant(b).is_none_or(|b| b == 0.0)
+            && !all.contains(&b)
+        {
+            all.push(b);
         }
     }
     all
@@ -302,10 +303,7 @@ pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss>
             let got: Vec<f64> = Trace::<f32>::run(program, &point).result.iter().map(|v| f64::from(*v)).collect();
             let Ok(exact) = judge.value(&given(&point)) else { continue };
             let lost = got.iter().zip(&exact).any(|(got, exact)| {
-                got.is_finite()
-                    && exact.is_finite()
-                    && exact.abs() > 1e-6
-                    && !((got - exact).abs() <= LOST * exact.abs())
+                got.is_finite() && exact.is_finite() && exact.abs() > 1e-6 && (got - exact).abs() > LOST * exact.abs()
             });
             if lost {
                 let name = &program.inputs[input.index()].name;
