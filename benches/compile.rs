@@ -52,6 +52,44 @@ fn whole<const SHAPE: usize>(path: &str) -> Vec<u8> {
     emit::emit(&proved, Target::Wgsl).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// Every analysis of `umbrage check`.
+#[divan::bench(args = TABLES)]
+fn analyse(bencher: Bencher<'_, '_>, path: &str) {
+    let program = program(path);
+    bencher.bench(|| umbrage::analyse::findings(&program).len());
+}
+
+/// The same for 1,000 cases over 4^10 states. Each case asks for one or two
+/// levels of three to five inputs, drawn by a fixed rule.
+#[divan::bench(sample_count = 3)]
+fn analyse_large(bencher: Bencher<'_, '_>) {
+    let mut seed = 1_u64;
+    let mut draw = |end: u64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) % end
+    };
+    let inputs: Vec<String> =
+        (0..10).map(|i| format!("\"i{i}\": Levels(values: {{\"a\": 0, \"b\": 1, \"c\": 2, \"d\": 3}})")).collect();
+    let cases: Vec<String> = (1..=1000)
+        .map(|id| {
+            let parts: Vec<String> = (0..3 + draw(3))
+                .map(|_| {
+                    format!("i{} in {{{}, {}}}", draw(10), ["a", "b"][draw(2) as usize], ["c", "d"][draw(2) as usize])
+                })
+                .collect();
+            format!("Case(id: {id}, when: \"{}\", value: {})", parts.join(" && "), draw(4))
+        })
+        .collect();
+    let text = format!(
+        "Table(language: 1, name: \"large\", hit_policy: First, inputs: {{{}}}, output: Number(), cases: [{}], default: 0)",
+        inputs.join(", "),
+        cases.join(", ")
+    );
+    let table = Table::parse(umbrage::diag::Source::new("large", text)).unwrap_or_else(|error| panic!("{error}"));
+    let program = Program::check(&table).unwrap_or_else(|error| panic!("{error}"));
+    bencher.bench(|| umbrage::analyse::findings(&program).len());
+}
+
 fn main() {
     divan::main();
 }

@@ -5,12 +5,13 @@
 //! of the run was checked, proved, emitted and validated, each through a
 //! temporary file beside its place, so that a failure leaves nothing behind.
 
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::{self, Target};
-use crate::plan::{LookupPlace, Plan, Proof, Shape};
+use crate::plan::{LookupPlace, Plan, PlanOptions, Proof, Shape, Weights, is_unsuitable};
 use crate::program::Program;
 use crate::table::io_reason;
 
@@ -21,12 +22,21 @@ pub struct Options {
     pub shapes: Vec<Shape>,
     /// The languages.
     pub targets: Vec<Target>,
+    /// Whether plans may do anything where a table's assumptions do not hold.
+    pub assume: bool,
+    /// How often the states of each table occur, by its name.
+    pub weights: BTreeMap<String, Weights>,
 }
 
 impl Default for Options {
     /// The plans whose code stands alone, in every language.
     fn default() -> Self {
-        Self { shapes: vec![Shape::Ladder, Shape::Switch(LookupPlace::Constants)], targets: Target::ALL.to_vec() }
+        Self {
+            shapes: vec![Shape::Ladder, Shape::Switch(LookupPlace::Constants)],
+            targets: Target::ALL.to_vec(),
+            assume: false,
+            weights: BTreeMap::new(),
+        }
     }
 }
 
@@ -84,20 +94,22 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
 pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
     let mut built = Built { table: program.name.clone(), plans: Vec::new(), skipped: Vec::new(), files: Vec::new() };
     for shape in &options.shapes {
-        let plan = match Plan::new(program, *shape) {
-            Ok(plan) => plan,
-            Err(reason) => {
+        let plan = PlanOptions { shape: *shape, weights: options.weights.get(&program.name), assume: options.assume };
+        let proved = match Plan::proved(program, plan) {
+            Ok(proved) => proved,
+            Err(reason) if is_unsuitable(&reason) => {
                 built.skipped.push((*shape, reason));
                 continue;
             }
+            Err(failure) => return Err(failure),
         };
-        let proved = plan.prove()?;
         built.plans.push((*shape, proved.proof().clone()));
-        let path = |extension: &str| Path::new(&program.name).join(format!("{shape}.{extension}"));
+        let stem = if options.assume { format!("{shape}_assuming") } else { shape.to_string() };
+        let path = |extension: &str| Path::new(&program.name).join(format!("{stem}.{extension}"));
         for target in &options.targets {
             built.files.push(Artifact { path: path(target.extension()), contents: emit::emit(&proved, *target)? });
         }
-        if *shape == Shape::Switch(LookupPlace::Buffer) {
+        if shape.reads_buffer() {
             let words = emit::lookup_words(proved.plan());
             let contents = words.iter().flat_map(|word| word.to_le_bytes()).collect();
             built.files.push(Artifact { path: path("lookup.bin"), contents });

@@ -207,6 +207,7 @@ pub mod codes {
     // Plans and output.
     pub const NOT_PROVED: Code = Code("U0601");
     pub const NOT_APPLICABLE: Code = Code("U0602");
+    pub const PROOF_TOO_LONG: Code = Code("U0604");
     pub const INVALID_OUTPUT: Code = Code("U0603");
 
     // Profiles and tuning.

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
+use crate::plan::{LookupPlace, Plan, Shape};
 use crate::program::Program;
 use crate::table::read_text;
 
@@ -121,6 +122,34 @@ impl Tuned {
     }
 }
 
+/// The plan that `auto` stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Auto {
+    /// Its shape.
+    pub shape: Shape,
+    /// Whether it relies on the table's assumptions.
+    pub assume: bool,
+    /// Whether it was tuned, rather than being the default.
+    pub tuned: bool,
+}
+
+impl Auto {
+    /// The tuned plan if there is one for this very text of the table, else the
+    /// default: `switch`, where the key is small enough for it, which does best
+    /// on most graphics processors, else `ladder`.
+    pub fn of(program: &Program, tuned: Option<&Tuned>) -> Self {
+        let choice = tuned.and_then(|tuned| tuned.choice(program));
+        if let Some(choice) = choice
+            && let Some(shape) = Shape::from_name(choice.plan.trim_end_matches("+assume"))
+        {
+            return Self { shape, assume: choice.assume, tuned: true };
+        }
+        let switch = Shape::Switch(LookupPlace::Constants);
+        let shape = if Plan::new(program, switch).is_ok() { switch } else { Shape::Ladder };
+        Self { shape, assume: false, tuned: false }
+    }
+}
+
 /// A device's name as the name of a file: what stands before any detail in brackets.
 pub fn slug(device: &str) -> String {
     let plain = device.split('(').next().unwrap_or(device);
@@ -171,6 +200,19 @@ mod tests {
         std::fs::write(&path, &tuned.to_ron()[..100]).expect("written");
         let failure = Tuned::read(&path).expect_err("cut off");
         assert!(failure.diagnostics[0].message.starts_with("this is no tuned choice: "));
+    }
+
+    #[test]
+    fn auto_is_what_was_tuned_or_else_the_default() {
+        let program = Program::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"));
+        let default = Auto { shape: Shape::Switch(LookupPlace::Constants), assume: false, tuned: false };
+        assert_eq!(Auto::of(&program, None), default);
+        let mut tuned = Tuned::new("d");
+        tuned.set(Choice { assume: true, ..choice("smsr", "switch_buffer+assume") });
+        assert_eq!(Auto::of(&program, Some(&tuned)), default, "another text of the table");
+        tuned.tables[0].fingerprint = program.fingerprint();
+        let expected = Auto { shape: Shape::Switch(LookupPlace::Buffer), assume: true, tuned: true };
+        assert_eq!(Auto::of(&program, Some(&tuned)), expected);
     }
 
     #[test]

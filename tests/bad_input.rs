@@ -28,8 +28,8 @@ const TABLE: &str = r#"Table(
     output: Number(),
     cases: [
         Case(id: 1, when: "side == left && near", value: "x * 2"),
-        Case(id: 2, when: "far && seen", value: "1 - x"),
         Case(id: 3, is: Image(case: 1, under: "turn")),
+        Case(id: 2, when: "far && seen", value: "1 - x"),
     ],
     default: 0,
 )
@@ -37,11 +37,15 @@ const TABLE: &str = r#"Table(
 
 /// The facts worth knowing about it.
 const NOTES: &str = "\
+demo.ron:19:28: note[U0509]: case 1 must come before case 2: they hold together and differ
+ = cases 1 and 2 hold at side=left,far=true,x=0.4052734375,seen=true
+demo.ron:20:47: note[U0509]: case 3 must come before case 2: they hold together and differ
+ = cases 3 and 2 hold at side=right,far=true,x=0.4052734375,seen=true
 demo.ron:4:17: note[U0503]: no case claims 1 of the 6 states; they get the default
- = these are the states with side = none, far = false
-demo.ron:15:9: note[U0506]: the table lacks the symmetry `turn` in 2 of the 6 states
- = cases taken there and in the image: 1/2 (2)
- = for instance side = left, far = true, x < 0.5, seen = true, x * 2 > 1 - x
+ = these are the states with side == none && !far
+ = to claim them: Case(id: 4, when: \"side == none && !far\", value: ...)
+demo.ron:20:47: note[U0521]: cases 1 and 3 could be one
+ = they give the same, and together their guards say `side != none && x < 0.5`
 ";
 
 const ROWS: &str = "side,far,x,seen\nleft,false,0.25,\n";

@@ -55,6 +55,8 @@ fn noise(size: u32, pixels: u32, density: u32) -> (ShadowMap, Receivers) {
 struct Executors<'g> {
     programs: Vec<Option<Program>>,
     shaders: Vec<(usize, Skeleton, Shader<'g>)>,
+    /// As fast as possible: values only.
+    fast: Vec<(usize, Output, Shader<'g>)>,
 }
 
 impl<'g> Executors<'g> {
@@ -62,14 +64,19 @@ impl<'g> Executors<'g> {
         let programs: Vec<Option<Program>> =
             TECHNIQUES.iter().map(|technique| cpu::table(*technique).unwrap()).collect();
         let mut shaders = Vec::new();
+        let mut fast = Vec::new();
         for (index, program) in programs.iter().enumerate() {
             let proved = program.as_ref().map(|program| Plan::proved(program, Shape::Ladder).unwrap());
             for skeleton in [Skeleton::EXACT, Skeleton::PUBLISHED] {
                 let shader = Shader::new(gpu, TECHNIQUES[index], proved.as_ref(), skeleton, Output::Record);
                 shaders.push((index, skeleton, shader.unwrap_or_else(|error| panic!("{error}"))));
             }
+            for output in [Output::Compute, Output::Fragment] {
+                let shader = Shader::new(gpu, TECHNIQUES[index], proved.as_ref(), Skeleton::FAST, output);
+                fast.push((index, output, shader.unwrap_or_else(|error| panic!("{error}"))));
+            }
         }
-        Self { programs, shaders }
+        Self { programs, shaders, fast }
     }
 
     /// Compares a frame, with every skeleton if it is to be thorough.
@@ -92,6 +99,13 @@ impl<'g> Executors<'g> {
                     let (found, _) = shader.record(&frame, settings).unwrap_or_else(|error| panic!("{error}"));
                     same(&format!("{what}, {technique}, {skeleton:?}"), &expected, &found);
                 }
+            }
+            for (_, output, shader) in self.fast.iter().filter(|(of, ..)| *of == index) {
+                let bound = shader.bind(&frame, settings).unwrap_or_else(|error| panic!("{error}"));
+                let found = bound.values().unwrap_or_else(|error| panic!("{error}"));
+                let what = format!("{what}, {technique}, fast {}", output.name());
+                let found = Visibility { value: found, ..expected.clone() };
+                same(&what, &expected, &found);
             }
         }
     }

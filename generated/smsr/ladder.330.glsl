@@ -3,7 +3,7 @@
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  fnv1a 193e792fe1c5508c, 12 cases
 // Plan:   ladder
-// Proof:  equal to the table on 576 states, 616 paths; the same operations on each
+// Proof:  equal to the table on 576 states, 596 paths; the same operations on each
 
 // Include it after `#version 330 core`.
 

@@ -3,7 +3,7 @@
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  fnv1a 193e792fe1c5508c, 12 cases
 // Plan:   switch
-// Proof:  equal to the table on 576 states, 616 paths; the same operations on each
+// Proof:  equal to the table on 576 states, 596 paths; the same operations on each
 
 // Levels, as they stand in a key and as a fetch returns them.
 const SMSR_H_NONE: u32 = 0u;

@@ -56,9 +56,18 @@ pub fn allowance(program: &Program, wide: &mut Interpreter<'_, f64>, point: &[Op
     allowed.iter().all(|allowed| allowed.is_finite()).then_some(allowed)
 }
 
+/// Where a function is least accurate.
+struct Worst {
+    /// The error, of what is allowed.
+    times: f64,
+    point: Vec<Option<Value>>,
+    exact: Vec<f64>,
+    got: Vec<f64>,
+}
+
 fn check_accuracy(program: &Program, function: &Function, claim: &Accuracy) -> Option<Diagnostic> {
     let (mut wide, mut narrow) = (Interpreter::<f64>::new(program), Interpreter::<f32>::new(program));
-    let mut worst: Option<(f64, Vec<Option<Value>>, Vec<f64>, Vec<f64>)> = None;
+    let mut worst: Option<Worst> = None;
     for point in Samples::new(program).take(POINTS) {
         let exact = wide.evaluate(&point).ok()?.values;
         let got: Vec<f64> = narrow.evaluate(&point).ok()?.values.into_iter().map(f64::from).collect();
@@ -67,12 +76,12 @@ fn check_accuracy(program: &Program, function: &Function, claim: &Accuracy) -> O
             // What is smaller than any normal number may be flushed to zero.
             let error = (exact_one - got_one).abs() - f64::from(f32::MIN_POSITIVE);
             let times = if error.is_nan() { f64::INFINITY } else { error / allowed.max(f64::MIN_POSITIVE) };
-            if times > 1.0 && worst.as_ref().is_none_or(|(most, ..)| times > *most) {
-                worst = Some((times, point.clone(), exact.clone(), got.clone()));
+            if times > 1.0 && worst.as_ref().is_none_or(|worst| times > worst.times) {
+                worst = Some(Worst { times, point: point.clone(), exact: exact.clone(), got: got.clone() });
             }
         }
     }
-    let (times, point, exact, got) = worst?;
+    let Worst { times, point, exact, got } = worst?;
     let message = format!("the function `{}` is less accurate than it claims", function.name);
     Some(
         Diagnostic::error(codes::BUDGET_EXCEEDED, message)

@@ -6,40 +6,64 @@
 //! line of [`ANALYSES`].
 
 mod claims;
+mod continuity;
 mod coverage;
+mod errata;
 mod examples;
 mod levels;
+mod lines;
+mod mutate;
+mod numbers;
+mod orbit;
 mod overlap;
+mod point;
+mod real;
+mod sets;
 #[cfg(feature = "precise")]
 mod singular;
+mod space;
+mod study;
+mod style;
 mod symmetry;
 mod unused;
+mod violations;
+mod words;
 
-use crate::diag::{Diagnostic, Severity};
-use crate::program::{Program, symbolic};
+use crate::diag::{Diagnostic, Severity, codes};
+use crate::program::Program;
+use study::Study;
 
 pub use claims::allowance;
 pub use coverage::{Coverage, Dead, coverage};
+pub use errata::{errata, seeded};
 pub use examples::agrees;
 pub use levels::{FINDINGS, Findings, Level, Levels};
+pub use mutate::{Mistake, Tally, survey};
+pub use numbers::{Range, ranges};
 pub use overlap::{Overlap, overlaps};
 #[cfg(feature = "precise")]
 pub use singular::{Singularity, domain_points, singularities};
-pub use symmetry::{Violation, admissible, violations, violations_under};
+pub use violations::{Violation, admissible, violations, violations_under};
 
-/// Every analysis that can find something wrong, in the order in which findings are shown.
-const ANALYSES: &[fn(&Program) -> Vec<Diagnostic>] = &[
+/// Analyses that look at a program as it is written.
+const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[
     examples::findings,
     claims::findings,
-    overlap::findings,
-    coverage::findings,
     unused::findings,
     #[cfg(feature = "precise")]
     singular::findings,
 ];
 
-/// Analyses that only ever note facts.
-const REMARKS: &[fn(&Program) -> Vec<Diagnostic>] = &[symmetry::findings];
+/// Analyses that look at all inputs at once.
+const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] = &[
+    overlap::findings,
+    coverage::findings,
+    lines::findings,
+    symmetry::findings,
+    continuity::findings,
+    numbers::findings,
+    style::findings,
+];
 
 /// Everything that is questionable or worth knowing about a program, without
 /// what the table itself acknowledges.
@@ -52,8 +76,43 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 
 /// Every finding: those to be shown, at the levels asked for, and those that the table acknowledges.
 pub fn report(program: &Program, levels: &Levels) -> Findings {
-    let found = ANALYSES.iter().chain(REMARKS).flat_map(|analysis| analysis(program)).collect();
+    let mut found: Vec<Diagnostic> = PLAIN.iter().flat_map(|analysis| analysis(program)).collect();
+    // A function has no cases that could contradict each other, and `claims` and `singular` look at its numbers.
+    if program.function.is_none() {
+        found.extend(symbolic(program));
+    }
+    drop_twice_said(&mut found);
+    found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     levels::sort(program, found, levels)
+}
+
+fn symbolic(program: &Program) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    let mut study = Study::new(program);
+    for analysis in SYMBOLIC {
+        let more = analysis(&mut study);
+        if study.space.is_too_large() {
+            found.push(not_analysed(program));
+            break;
+        }
+        found.extend(more);
+    }
+    found
+}
+
+/// Divisions by zero are looked at twice; what is said of their limits says more.
+fn drop_twice_said(found: &mut Vec<Diagnostic>) {
+    let limits = [codes::REMOVABLE, codes::POLE];
+    let places = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
+    let told: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(places).collect();
+    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !places(finding).is_some_and(|p| told.contains(&p)));
+}
+
+fn not_analysed(program: &Program) -> Diagnostic {
+    Diagnostic::note(codes::NOT_ANALYSED, "the table is too intricate for some analyses, which were left out")
+        .at(program.hit_policy_span, "")
+        .help("sets of its inputs, or the values of one of its lines, take more than the limits allow")
+        .help("split the table, or write conditions on fewer inputs")
 }
 
 /// The findings without notes; empty for a clean program.

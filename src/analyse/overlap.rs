@@ -1,15 +1,16 @@
-//! U0502: cases of a table with hit policy `Unique` that contradict each other.
+//! U0502, U0509: cases that hold together.
 //!
 //! Two guards may hold together as long as both cases give the same value. With
-//! hit policy `First` overlaps are how a table is written, and no finding;
-//! [`overlaps`] still tells which there are.
+//! hit policy `First` overlaps are how a table is written: that their order
+//! matters is a note, with the conditions that would make it not matter. With
+//! `Unique` it is an error.
 
-use std::ops::ControlFlow;
-
-use super::coverage::{Claim, claim};
-use super::symbolic::{Machine, View};
+use super::sets::Set;
+use super::space::Space;
+use super::study::Study;
+use super::words;
 use crate::diag::{Diagnostic, codes};
-use crate::program::Program;
+use crate::program::{InputSet, LevelSet, Program};
 use crate::table::HitPolicy;
 
 /// Two cases whose guards can hold together.
@@ -29,8 +30,8 @@ pub struct Overlap {
     /// Whether some inputs are sure to give different values. Otherwise this
     /// depends on comparisons that are not linear, and is not decided here.
     pub certain: bool,
-    /// One such state (one with different values if there is any), with what
-    /// else leads there, in table notation.
+    /// One such input, in the form that `explain --at` takes; with different
+    /// values if there is any.
     pub example_state: String,
 }
 
@@ -38,84 +39,197 @@ pub struct Overlap {
 ///
 /// Values are compared over the reals, for all fetched and continuous inputs.
 pub fn overlaps(program: &Program) -> Vec<Overlap> {
-    let rows = program.rows.len();
-    let mut machine = Machine::new(program);
-    let mut found: Vec<Option<Overlap>> = vec![None; rows * rows];
-    for state in 0..program.states.count() {
-        let claims: Vec<usize> =
-            (0..rows).filter(|row| claim(&mut machine, state, program.rows[*row].guard) != Claim::Never).collect();
-        for (place, first) in claims.iter().enumerate() {
-            for second in &claims[place + 1..] {
-                let entry = &mut found[first * rows + second];
-                pair(&mut machine, state, (*first, *second), place == 0, entry);
+    let mut study = Study::new(program);
+    let mut found = Vec::new();
+    let mut earlier = Set::EMPTY;
+    for first in 0..program.rows.len() {
+        for second in first + 1..program.rows.len() {
+            found.extend(overlap(&mut study, first, second, earlier));
+        }
+        let guard = study.space.states(study.rows.guards[first]);
+        earlier = study.space.sets.or(earlier, guard);
+    }
+    found
+}
+
+/// What can be said of two cases; `earlier` are the states that cases before both can claim.
+fn overlap(study: &mut Study<'_>, first: usize, second: usize, earlier: Set) -> Option<Overlap> {
+    let guards = &study.rows.guards;
+    if !study.space.sets.meets(guards[first], guards[second]) {
+        return None;
+    }
+    let both = study.space.sets.and(guards[first], guards[second]);
+    if study.space.is_void(both) {
+        return None;
+    }
+    let different = different(study, first, second, Set::ALL);
+    let (all, differ) = (study.space.states(both), study.space.states(different));
+    let equal = study.space.sets.minus(all, differ);
+    let [equal_first, differ_first] = [equal, differ].map(|states| study.space.sets.minus(states, earlier));
+    let witness = study.space.witness(if differ.is_empty() { both } else { different })?;
+    let relevant = relevant(study, first, second);
+    Some(Overlap {
+        first,
+        second,
+        states_equal: study.space.count(equal),
+        states_different: study.space.count(differ),
+        states_first: (study.space.count(equal_first), study.space.count(differ_first)),
+        certain: witness.certain && !differ.is_empty(),
+        example_state: words::at(study.program, &witness, relevant),
+    })
+}
+
+fn relevant(study: &Study<'_>, first: usize, second: usize) -> InputSet {
+    words::mentioned(study.program, first).or(words::mentioned(study.program, second))
+}
+
+/// Whether both cases can hold, within a set, with different values.
+fn differ(study: &mut Study<'_>, first: usize, second: usize, within: Set) -> bool {
+    if let ([a], [b]) = (study.rows.own[first].as_slice(), study.rows.own[second].as_slice()) {
+        // One value each: mostly they are the same everywhere or nowhere.
+        match study.space.different(&a.values, &b.values) {
+            Set::EMPTY => return false,
+            Set::ALL if within == Set::ALL => return study.space.can_meet(a.set, b.set),
+            _ => {}
+        }
+    }
+    let different = different(study, first, second, within);
+    !study.space.is_void(different)
+}
+
+/// Where both cases hold, within a set, with different values.
+fn different(study: &mut Study<'_>, first: usize, second: usize, within: Set) -> Set {
+    let mut result = Set::EMPTY;
+    for a in &study.rows.own[first] {
+        let here = study.space.sets.and(a.set, within);
+        for b in &study.rows.own[second] {
+            if !study.space.sets.meets(here, b.set) {
+                continue;
+            }
+            let both = study.space.sets.and(here, b.set);
+            let different = study.space.different(&a.values, &b.values);
+            let different = study.space.sets.and(both, different);
+            result = study.space.sets.or(result, different);
+        }
+    }
+    result
+}
+
+/// Most pairs of overlapping cases for which disjoint guards are looked for.
+const MAX_PAIRS: usize = 2000;
+
+/// For hit policy `Unique`, every pair with different values; else a note for
+/// each case that comes before others with different values.
+pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+    let program = study.program;
+    let unique = program.hit_policy == HitPolicy::Unique;
+    let within = if unique { Set::ALL } else { study.assumed };
+    let mut pairs: Vec<(usize, usize)> = Vec::new();
+    for first in 0..program.rows.len() {
+        for second in first + 1..program.rows.len() {
+            if !study.space.sets.meets(study.rows.guards[first], study.rows.guards[second]) {
+                continue;
+            }
+            if differ(study, first, second, within) {
+                pairs.push((first, second));
             }
         }
     }
-    found.into_iter().flatten().collect()
+    if unique {
+        return pairs.into_iter().filter_map(|(first, second)| contradiction(study, first, second)).collect();
+    }
+    let suggest = pairs.len() <= MAX_PAIRS;
+    let rows = 0..program.rows.len();
+    rows.filter_map(|first| {
+        let later: Vec<usize> = pairs.iter().filter(|pair| pair.0 == first).map(|pair| pair.1).collect();
+        (!later.is_empty()).then(|| order_matters(study, first, &later, suggest))
+    })
+    .collect()
 }
 
-/// Adds what one state says of a pair of rows.
-fn pair(
-    machine: &mut Machine<'_>,
-    state: usize,
-    (first, second): (usize, usize),
-    is_first: bool,
-    found: &mut Option<Overlap>,
-) {
-    let mut example = None;
-    let mut certain = false;
-    let different = machine.any_path(state, |machine| {
-        if !machine.both_hold(first, second) {
-            return ControlFlow::Continue(());
+fn order_matters(study: &mut Study<'_>, first: usize, later: &[usize], suggest: bool) -> Diagnostic {
+    let program = study.program;
+    let case = &program.rows[first];
+    let all: Vec<Option<usize>> = later.iter().copied().map(Some).collect();
+    let message =
+        format!("case {} must come before {}: they hold together and differ", case.id, words::cases(program, &all));
+    let mut note = Diagnostic::note(codes::ORDER_MATTERS, message).at(case.guard_span, "");
+    for second in later.iter().take(3) {
+        note = note.at(program.rows[*second].guard_span, "");
+    }
+    let different = different(study, first, later[0], study.assumed);
+    if let Some(witness) = study.space.witness(different) {
+        let relevant = relevant(study, first, later[0]);
+        let second = program.rows[later[0]].id;
+        note = note.help(format!("cases {} and {second} hold at {}", case.id, words::at(program, &witness, relevant)));
+    }
+    if !suggest {
+        return note;
+    }
+    let mut extra = Vec::new();
+    for second in later {
+        if let Some(condition) = disjoint(study, *second) {
+            extra.push(format!("{}: `{condition}`", program.rows[*second].id));
         }
-        let values = (machine.row_values(first, View::PLAIN), machine.row_values(second, View::PLAIN));
-        if machine.equal(&values.0, &values.1) {
-            example.get_or_insert_with(|| machine.describe());
-            return ControlFlow::Continue(());
+    }
+    match extra.is_empty() {
+        true => note,
+        false => note.help(format!("the order would not matter with these further conditions: {}", extra.join(", "))),
+    }
+}
+
+/// Conditions on single inputs that, added to the guard of a case, exclude all
+/// earlier cases and leave it where it is taken, as far as the assumptions hold.
+fn disjoint(study: &mut Study<'_>, row: usize) -> Option<String> {
+    let guard = study.space.sets.and(study.rows.guards[row], study.assumed);
+    let guard = study.space.prune(guard);
+    let taken = study.space.sets.and(guard, study.rows.taken[row]);
+    let taken = study.space.prune(taken);
+    if taken.is_empty() {
+        return None;
+    }
+    let mut masked = study.space.sets.minus(guard, study.rows.taken[row]);
+    let mut chosen: Vec<(usize, LevelSet)> = Vec::new();
+    while !study.space.is_void(masked) {
+        let mut best: Option<(f64, usize, LevelSet, Set)> = None;
+        for digit in 0..study.space.state_digits() {
+            let (mut kept, mut lost) = (0_u64, 0_u64);
+            for level in 0..study.space.sets.levels(digit) as u8 {
+                let atom = study.space.sets.atom(digit, LevelSet::one(level));
+                if study.space.can_meet(taken, atom) {
+                    kept |= 1 << level;
+                }
+                if study.space.can_meet(masked, atom) {
+                    lost |= 1 << level;
+                }
+            }
+            let excluded = lost & !kept;
+            if excluded == 0 {
+                continue;
+            }
+            // Levels that the guard never meets anyway may be in or out, whichever is shorter to say.
+            let allowed = LevelSet(LevelSet::all(study.space.sets.levels(digit)).0 & !excluded);
+            let length = |space: &mut Space<'_>, levels| words::condition(space, &[(digit, levels)]).len();
+            let shorter = length(&mut study.space, LevelSet(kept)) < length(&mut study.space, allowed);
+            let allowed = if shorter { LevelSet(kept) } else { allowed };
+            let atom = study.space.sets.atom(digit, allowed);
+            let rest = study.space.sets.and(masked, atom);
+            let left = study.space.count(rest) as f64;
+            if best.as_ref().is_none_or(|(least, ..)| left < *least) {
+                best = Some((left, digit, allowed, rest));
+            }
         }
-        certain = machine.certain();
-        example = Some(machine.describe());
-        ControlFlow::Break(())
-    });
-    // What was not followed may differ: then nothing is certain, and `Unique` is not proved.
-    let different = different || machine.gave_up();
-    if machine.gave_up() {
-        example.get_or_insert_with(|| machine.describe());
+        let (_, digit, allowed, rest) = best?;
+        chosen.push((digit, allowed));
+        masked = rest;
     }
-    let Some(example) = example else { return };
-    let found = found.get_or_insert_with(|| Overlap {
-        first,
-        second,
-        states_equal: 0,
-        states_different: 0,
-        states_first: (0, 0),
-        certain: false,
-        example_state: example.clone(),
-    });
-    if !different {
-        found.states_equal += 1;
-        found.states_first.0 += usize::from(is_first);
-        return;
-    }
-    if found.states_different == 0 || certain && !found.certain {
-        found.example_state = example;
-    }
-    found.states_different += 1;
-    found.states_first.1 += usize::from(is_first);
-    found.certain |= certain;
+    (!chosen.is_empty()).then(|| words::condition(&mut study.space, &chosen))
 }
 
-/// For hit policy `Unique`, every pair with different values.
-pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
-    if program.hit_policy != HitPolicy::Unique {
-        return Vec::new();
-    }
-    let overlaps = overlaps(program).into_iter().filter(|overlap| overlap.states_different > 0);
-    overlaps.map(|overlap| finding(program, &overlap)).collect()
-}
-
-fn finding(program: &Program, overlap: &Overlap) -> Diagnostic {
-    let (first, second) = (&program.rows[overlap.first], &program.rows[overlap.second]);
+fn contradiction(study: &mut Study<'_>, first: usize, second: usize) -> Option<Diagnostic> {
+    let overlap = overlap(study, first, second, Set::EMPTY)?;
+    let program = study.program;
+    let (first, second) = (&program.rows[first], &program.rows[second]);
     let what = if overlap.certain { "both hold" } else { "may both hold" };
     let message = format!("cases {} and {} {what}, with different values", first.id, second.id);
     let diagnostic = match overlap.certain {
@@ -123,16 +237,13 @@ fn finding(program: &Program, overlap: &Overlap) -> Diagnostic {
         // What is not linear cannot be decided here, and no table is refused for that.
         false => Diagnostic::warning(codes::NOT_UNIQUE, message),
     };
-    let states = match overlap.states_different {
-        1 => "1 state".to_owned(),
-        count => format!("{count} states"),
-    };
-    diagnostic
+    let finding = diagnostic
         .at(second.guard_span, format!("the guard of case {}", second.id))
         .at(first.guard_span, format!("the guard of case {}", first.id))
         .at(program.hit_policy_span, "but at most one case may decide")
-        .help(format!("in {states}, such as {}", overlap.example_state))
-        .help("make the guards exclude each other, or say `hit_policy: First`")
+        .help(format!("in {}, such as at {}", words::states(overlap.states_different), overlap.example_state))
+        .help("make the guards exclude each other, or say `hit_policy: First`");
+    Some(finding)
 }
 
 #[cfg(test)]
@@ -158,8 +269,9 @@ mod tests {
 
     #[test]
     fn guards_that_exclude_each_other_and_equal_values_are_not() {
-        let uncovered = |found: Vec<String>| found.into_iter().filter(|f| !f.starts_with("U0503")).collect::<Vec<_>>();
-        let fine = |first, second| assert_eq!(uncovered(unique(first, second)), [""; 0]);
+        let contradictions =
+            |found: Vec<String>| found.into_iter().filter(|f| f.starts_with("U0502")).collect::<Vec<_>>();
+        let fine = |first, second| assert_eq!(contradictions(unique(first, second)), [""; 0]);
         fine(r#""x < 0.5", value: 1"#, r#""x >= 0.5", value: 2"#);
         fine(r#""x < 0.5", value: 1"#, r#""2 * x - 1 > 0.25", value: 2"#);
         fine(r#""s", value: "2 * x - x""#, r#""s && f", value: "max(x, 0)""#);

@@ -22,9 +22,12 @@ pub(super) struct Arguments {
     /// Directory for the generated files, one folder per table
     #[arg(long, short, value_name = "DIR", default_value = "generated")]
     output: PathBuf,
-    /// Code shapes: ladder, switch, switch_buffer [default: ladder,switch]
+    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit [default: ladder,switch]
     #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
     plan: Vec<Shape>,
+    /// Let plans do anything where the table's assumptions do not hold
+    #[arg(long)]
+    assume: bool,
     /// Languages: wgsl, glsl450, glsl330, glsl_es300, rust, spirv, hlsl, msl [default: all]
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
@@ -34,7 +37,7 @@ pub(super) struct Arguments {
 
 /// Builds every table. Nothing is written unless all of them are right.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let mut options = Options::default();
+    let mut options = Options { assume: arguments.assume, ..Options::default() };
     if !arguments.plan.is_empty() {
         options.shapes.clone_from(&arguments.plan);
     }

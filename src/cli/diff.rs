@@ -24,9 +24,12 @@ pub(super) struct Arguments {
     /// The adapter: any, software, hardware, or a part of its name
     #[arg(long, value_name = "WHICH", default_value = "any")]
     adapter: AdapterChoice,
-    /// Code shapes: ladder, switch, switch_buffer [default: all]
+    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit [default: all]
     #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
     plan: Vec<Shape>,
+    /// Let plans do anything where the table's assumptions do not hold, and compare where they do
+    #[arg(long)]
+    assume: bool,
     /// Most points of the grid on the continuous inputs, per discrete state
     #[arg(long, value_name = "COUNT", default_value_t = diff::Effort::default().grid)]
     grid: usize,
@@ -40,7 +43,7 @@ pub(super) struct Arguments {
 
 /// Compares every table.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let mut options = Options::default();
+    let mut options = Options { assume: arguments.assume, ..Options::default() };
     options.effort.grid = arguments.grid;
     options.effort.random = arguments.random;
     if !arguments.plan.is_empty() {
@@ -76,7 +79,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         let bar = progress(program);
         let result = match &frames {
             None => diff::table(program, &gpu, &options, |state| bar.set_position(state as u64)),
-            Some(frames) => diff::frames(program, &gpu, &options.shapes, frames),
+            Some(frames) => diff::frames(program, &gpu, &options, frames),
         };
         bar.finish_and_clear();
         let result = result?;
@@ -143,6 +146,7 @@ fn json(gpu: &Gpu, report: &diff::Report) -> serde_json::Value {
             "bit_equal": run.bit_equal,
             "admissible": run.admissible,
             "offending": run.offending,
+            "excluded": run.excluded,
             "worst": run.worst,
             "offenders": run.offenders.iter().map(|o| json!({"inputs": o.inputs, "reason": o.reason})).collect::<Vec<_>>(),
         })

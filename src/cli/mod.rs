@@ -7,12 +7,15 @@
 mod answers;
 #[cfg(feature = "report")]
 mod atlas;
+#[cfg(all(feature = "gpu", feature = "render"))]
+mod bench;
 mod build;
 mod check;
 mod columns;
 mod csv_input;
 #[cfg(feature = "gpu")]
 mod diff;
+mod errata;
 mod eval;
 mod explain;
 #[cfg(feature = "render")]
@@ -53,7 +56,9 @@ use report::{Color, Format, Report};
 
 #[derive(Parser)]
 #[command(name = "umbrage", version, about = "Compiles case tables into shaders that are proved equal to the table")]
-#[command(after_help = "Exit codes: 0 clean, 1 findings, 2 failure.")]
+#[command(
+    after_help = "Exit codes: 0 clean, 1 findings, 2 failure.\nWhat a message means at length: umbrage explain CODE"
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -70,6 +75,9 @@ enum Command {
     /// Draw every case of a table
     #[cfg(feature = "report")]
     Atlas(atlas::Arguments),
+    /// Measure what each technique costs on this device
+    #[cfg(all(feature = "gpu", feature = "render"))]
+    Bench(bench::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -77,6 +85,8 @@ enum Command {
     /// Compare every plan on a GPU with the interpreter
     #[cfg(feature = "gpu")]
     Diff(diff::Arguments),
+    /// Report which misprints of a table the analyses find, and how well they find mistakes in general
+    Errata(errata::ErrataArguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about; or what a code means
@@ -172,11 +182,14 @@ pub fn main() -> ExitCode {
     let result = match arguments.command {
         #[cfg(feature = "report")]
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
+        #[cfg(all(feature = "gpu", feature = "render"))]
+        Command::Bench(arguments) => bench::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
+        Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),

@@ -262,5 +262,8 @@ fn draw(arguments: &Arguments, scenes: &[Scene], rows: &[Row]) -> String {
         .collect();
     let count = scenes.len() as u32;
     let (width, height) = (count.min(3) * width, count.div_ceil(3) * height);
-    format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">{plots}</svg>\n")
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>{plots}</svg>\n"
+    )
 }

@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     progress.advance(u64::from(height));
     progress.begin("shadow map");
     let map_size = if needs_device { arguments.shadow_map } else { 1 };
-    let map = stage.shadow_map(map_size, arguments.frame.bias());
+    let map = executor.shadow_map(&stage, map_size, arguments.frame.bias())?;
     let receivers = stage.receivers(&picture, map_size);
     progress.advance(u64::from(height));
     let mut answers = Vec::new();

@@ -96,3 +96,22 @@ fn object(source: &Source, diagnostic: &Diagnostic) -> Value {
         "notes": diagnostic.notes,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::{Span, codes};
+
+    /// `docs/messages.md` shows a message as it is.
+    #[test]
+    fn the_documented_message_is_one() {
+        let documented = include_str!("../../docs/messages.md");
+        let example = documented.split("```json").nth(1).and_then(|rest| rest.split("```").next()).unwrap_or_default();
+        let expected: Value = serde_json::from_str(example).unwrap_or_default();
+        let source = Source::new("tables/snow.ron", "Table(\n  cases: [\n        value: y");
+        let message = Diagnostic::error(codes::UNKNOWN_NAME, "`y` is not defined")
+            .at(Span::new(33, 34), "unknown name")
+            .help("did you mean `x`?");
+        assert_eq!(object(&source, &message), expected);
+    }
+}

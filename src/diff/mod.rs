@@ -7,7 +7,12 @@
 //! answer is admissible. Then the interval interpreter judges, which knows
 //! WGSL's accuracy rules: inside what it admits is legal, outside is a bug.
 //! Fetches have no such leeway: one that the interpreter did not make, or made
-//! twice, is a bug, unless another case was legally taken.
+//! twice, is a bug, unless another case or line was legally taken.
+//!
+//! A plan that was proved equal over the reals, but computes otherwise, is
+//! judged by its proof: a value that is no further off than the proof allows is
+//! legal, and so is one that the table has at inputs that far off. One that
+//! makes use of assumptions is compared where these hold.
 
 mod points;
 
@@ -15,10 +20,10 @@ use std::fmt::Write as _;
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::harness::Entry;
-use crate::eval::{Batch, Columns, IntervalInterpreter, Results};
+use crate::eval::{Batch, Columns, Interpreter, IntervalInterpreter, Results};
 use crate::gpu::{Gpu, Kernel, Language, Outputs};
-use crate::plan::{Plan, Proved, Shape};
-use crate::program::Program;
+use crate::plan::{Plan, PlanOptions, Proved, Shape, is_unsuitable, reachable};
+use crate::program::{Domain, Program};
 use crate::show::{Precision, sentence};
 
 pub use points::{Effort, Point, Points};
@@ -35,11 +40,13 @@ pub struct Options {
     pub shapes: Vec<Shape>,
     /// How many points.
     pub effort: Effort,
+    /// Whether plans may make use of the table's assumptions.
+    pub assume: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { shapes: Shape::ALL.to_vec(), effort: Effort::default() }
+        Self { shapes: Shape::ALL.to_vec(), effort: Effort::default(), assume: false }
     }
 }
 
@@ -71,6 +78,8 @@ pub struct Run {
     pub admissible: usize,
     /// Points that differ otherwise.
     pub offending: usize,
+    /// Points at which an assumption does not hold that the plan makes use of.
+    pub excluded: usize,
     /// Largest difference of a value where the same case was taken.
     pub worst: f64,
     /// The first offenders.
@@ -99,7 +108,7 @@ impl Report {
 /// # Errors
 /// When a plan cannot be proved, or the device fails.
 pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnMut(usize)) -> Result<Report, Failure> {
-    plans(program, &suitable(program, &options.shapes)?, gpu, options.effort, progress)
+    plans(program, &suitable(program, &options.shapes, options.assume)?, gpu, options.effort, progress)
 }
 
 /// Compares plans of a program on a device with the interpreter at given points,
@@ -107,8 +116,8 @@ pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnM
 ///
 /// # Errors
 /// When a plan cannot be proved, an input is missing, or the device fails.
-pub fn frames(program: &Program, gpu: &Gpu, shapes: &[Shape], frames: &[Columns<f32>]) -> Result<Report, Failure> {
-    let proved = suitable(program, shapes)?;
+pub fn frames(program: &Program, gpu: &Gpu, options: &Options, frames: &[Columns<f32>]) -> Result<Report, Failure> {
+    let proved = suitable(program, &options.shapes, options.assume)?;
     let mut comparison = Comparison::new(program, &proved, gpu)?;
     for columns in frames {
         comparison.points(columns)?;
@@ -126,10 +135,22 @@ pub fn at(program: &Program, proved: &[Proved<'_>], gpu: &Gpu, columns: &Columns
     Ok(comparison.report.runs)
 }
 
-/// The plans that suit a table, proved.
-fn suitable<'p>(program: &'p Program, shapes: &[Shape]) -> Result<Vec<Proved<'p>>, Failure> {
-    let plans = shapes.iter().filter_map(|shape| Plan::new(program, *shape).ok());
-    plans.map(Plan::prove).collect()
+/// The plans that suit a table, proved; at least one.
+fn suitable<'p>(program: &'p Program, shapes: &[Shape], assume: bool) -> Result<Vec<Proved<'p>>, Failure> {
+    let mut proved = Vec::new();
+    let mut unsuitable = None;
+    for shape in shapes {
+        let options = PlanOptions { shape: *shape, weights: None, assume };
+        match Plan::proved(program, options) {
+            Ok(plan) => proved.push(plan),
+            Err(failure) if is_unsuitable(&failure) => unsuitable = unsuitable.or(Some(failure)),
+            Err(failure) => return Err(failure),
+        }
+    }
+    match unsuitable {
+        Some(failure) if proved.is_empty() => Err(failure),
+        _ => Ok(proved),
+    }
 }
 
 /// Compares plans with the interpreter of a program: normally their own. With
@@ -146,27 +167,32 @@ pub fn plans(
     mut progress: impl FnMut(usize),
 ) -> Result<Report, Failure> {
     let mut comparison = Comparison::new(program, proved, gpu)?;
-    let mut points = Points::new(program, effort);
-    let states = program.states.count();
-    comparison.report.states = Some(states);
-    let mut state = 0;
-    while state < states {
+    let assumed = proved.iter().any(|proved| proved.plan().assumed);
+    let mut points = if assumed { Points::assuming(program, effort) } else { Points::new(program, effort) };
+    let states = if assumed { reachable(program) } else { (0..program.states.count()).collect() };
+    comparison.report.states = Some(states.len());
+    let mut rest = states.iter().enumerate();
+    while rest.len() > 0 {
         let mut columns = Columns::<f32>::new(program);
-        while state < states && columns.len() < BATCH {
-            for point in points.of_state(state) {
+        let mut done = 0;
+        for (number, state) in rest.by_ref() {
+            for point in points.of_state(*state) {
                 columns.push(&point).map_err(|error| internal(program, &error.to_string()))?;
             }
-            state += 1;
+            done = number + 1;
+            if columns.len() >= BATCH {
+                break;
+            }
         }
         comparison.points(&columns)?;
-        progress(state);
+        progress(done);
     }
     Ok(comparison.report)
 }
 
 /// A comparison under way.
 struct Comparison<'a, 'p> {
-    kernels: Vec<Kernel<'a, 'p>>,
+    kernels: Vec<(Kernel<'a, 'p>, Leeway)>,
     interpreter: Batch<'p, f32>,
     judge: Judge<'p>,
     report: Report,
@@ -189,7 +215,7 @@ impl<'a, 'p> Comparison<'a, 'p> {
         for proved in proved {
             for entry in entries.iter().copied() {
                 for language in languages.iter().copied() {
-                    kernels.push(Kernel::new(gpu, proved, entry, language)?);
+                    kernels.push((Kernel::new(gpu, proved, entry, language)?, Leeway::of(proved)));
                     runs.push(Run {
                         shape: proved.plan().shape,
                         entry,
@@ -197,6 +223,7 @@ impl<'a, 'p> Comparison<'a, 'p> {
                         bit_equal: 0,
                         admissible: 0,
                         offending: 0,
+                        excluded: 0,
                         worst: 0.0,
                         offenders: Vec::new(),
                     });
@@ -206,7 +233,11 @@ impl<'a, 'p> Comparison<'a, 'p> {
         Ok(Self {
             kernels,
             interpreter: Batch::new(program),
-            judge: Judge { program, intervals: IntervalInterpreter::new(program) },
+            judge: Judge {
+                program,
+                intervals: IntervalInterpreter::new(program),
+                interpreter: Interpreter::new(program),
+            },
             report: Report { table: program.name.clone(), states: None, points: 0, runs },
         })
     }
@@ -220,10 +251,10 @@ impl<'a, 'p> Comparison<'a, 'p> {
             Failure::new(program.source.clone(), error.help("a capture holds what the frame fetched; make it again"))
         })?;
         self.report.points += columns.len();
-        for (kernel, run) in self.kernels.iter().zip(&mut self.report.runs) {
+        for ((kernel, leeway), run) in self.kernels.iter().zip(&mut self.report.runs) {
             let outputs = kernel.run(columns)?;
             for point in 0..columns.len() {
-                self.judge.compare(columns, point, &expected, &outputs, run);
+                self.judge.compare(columns, point, &expected, &outputs, *leeway, run);
             }
         }
         Ok(())
@@ -236,9 +267,39 @@ fn internal(program: &Program, message: &str) -> Failure {
     Failure::new(program.source.clone(), error.help("please report this: points are made from the table itself"))
 }
 
+/// What a plan may do otherwise than the table.
+#[derive(Debug, Clone, Copy)]
+struct Leeway {
+    /// The case it reports need not be the one that the table takes.
+    other_case: bool,
+    /// It may do anything where an assumption does not hold.
+    assumed: bool,
+    /// How far off a value may be, and an input; zero for a plan that computes as the table does.
+    slack: f64,
+}
+
+impl Leeway {
+    fn of(proved: &Proved<'_>) -> Self {
+        let (plan, proof) = (proved.plan(), proved.proof());
+        let largest = plan.program.inputs.iter().map(|input| match input.domain {
+            Domain::Continuous { lo, hi, .. } => lo.abs().max(hi.abs()),
+            Domain::Discrete(_) => 0.0,
+        });
+        // Where the proof knows no bound, a few roundings of the inputs. The
+        // proof's is for rounding to nearest, and WGSL lets an error be twice that.
+        let least = largest.fold(1.0, f64::max) * 4.0 * f64::from(f32::EPSILON);
+        let slack = match proof.identical == proof.paths {
+            true => 0.0,
+            false => least.max(2.0 * proof.rounding.unwrap_or(0.0)),
+        };
+        Self { other_case: !plan.shape.reports_case(), assumed: plan.assumed, slack }
+    }
+}
+
 struct Judge<'p> {
     program: &'p Program,
     intervals: IntervalInterpreter<'p>,
+    interpreter: Interpreter<'p, f32>,
 }
 
 impl Judge<'_> {
@@ -248,12 +309,17 @@ impl Judge<'_> {
         point: usize,
         expected: &Results<f32>,
         outputs: &Outputs,
+        leeway: Leeway,
         run: &mut Run,
     ) {
+        if leeway.assumed && !self.assumptions_hold(&columns.point(point)) {
+            run.excluded += 1;
+            return;
+        }
         let want = expected.path(point);
-        let got_row = outputs.rows[point];
+        let got_row = if leeway.other_case { want.row } else { outputs.rows[point] };
         let same_case = want.row == got_row;
-        let mut same_bits = same_case;
+        let (mut same_bits, mut worst) = (same_case, 0.0_f64);
         for (component, values) in outputs.values.iter().enumerate() {
             let (a, b) = (expected.values(component)[point], values[point]);
             same_bits &= a.to_bits() == b.to_bits();
@@ -261,36 +327,57 @@ impl Judge<'_> {
                 let difference = (f64::from(a) - f64::from(b)).abs();
                 // A NaN on one side only is as far off as can be; two are no difference.
                 let difference = if a.is_nan() && b.is_nan() || a == b { 0.0 } else { difference };
-                run.worst = run.worst.max(if difference.is_nan() { f64::INFINITY } else { difference });
+                worst = worst.max(if difference.is_nan() { f64::INFINITY } else { difference });
             }
         }
+        run.worst = run.worst.max(worst);
+        let fetched = outputs.fetched[point];
         let again = outputs.repeated[point].iter().next();
-        let needless = outputs.fetched[point].minus(want.fetched).iter().next();
+        let needless = fetched.minus(want.fetched).iter().next();
         let mut reason = String::new();
         if let Some(input) = again {
             let _ = write!(reason, "`{}` is fetched more than once", self.program.inputs[input.index()].name);
-        } else if let (Some(input), true) = (needless, same_case) {
-            let _ = write!(reason, "`{}` is fetched without need", self.program.inputs[input.index()].name);
-        } else if same_bits {
+        } else if same_bits && needless.is_none() {
             run.bit_equal += 1;
+            return;
+        } else if same_case && needless.is_none() && worst <= leeway.slack {
+            run.admissible += 1;
             return;
         } else {
             let values: Vec<f32> = outputs.values.iter().map(|component| component[point]).collect();
-            if self.intervals.admissible(&columns.point(point)).is_ok_and(|a| a.contains(got_row, &values)) {
+            let near = self.intervals.admissible_near(&columns.point(point), leeway.slack);
+            // An absent input may be needed by what was legally done otherwise.
+            let legal = near.is_ok_and(|near| match needless {
+                Some(_) if same_case => near.contains_fetching(got_row, &values, fetched),
+                _ if leeway.other_case => near.contains_values(&values),
+                _ => near.contains(got_row, &values),
+            });
+            if legal {
                 run.admissible += 1;
                 return;
             }
-            let _ = write!(
-                reason,
-                "expected {}, got {}",
-                self.describe(want.row, &expected.outcome(point).values),
-                self.describe(got_row, &values)
-            );
+            let _ = match needless {
+                Some(input) if same_case => {
+                    write!(reason, "`{}` is fetched without need", self.program.inputs[input.index()].name)
+                }
+                _ => write!(
+                    reason,
+                    "expected {}, got {}",
+                    self.describe(want.row, &expected.outcome(point).values),
+                    self.describe(got_row, &values)
+                ),
+            };
         }
         run.offending += 1;
         if run.offenders.len() < KEPT {
             run.offenders.push(Offender { inputs: self.inputs(columns, point), reason });
         }
+    }
+
+    fn assumptions_hold(&mut self, point: &Point) -> bool {
+        let mut assumptions = self.program.assumptions.iter();
+        self.interpreter.place(point).is_ok()
+            && assumptions.all(|assumption| self.interpreter.holds(assumption.condition).unwrap_or(true))
     }
 
     fn describe(&self, row: Option<usize>, values: &[f32]) -> String {

@@ -38,10 +38,22 @@ pub struct Points<'p> {
     continuous: Vec<(InputId, f64, f64)>,
     /// Two expressions that are compared somewhere.
     comparisons: Vec<(ExprId, ExprId)>,
+    /// Whether only points count at which the assumptions hold.
+    assumed: bool,
     random: u64,
 }
 
+/// Most changes that are made to a point so that the assumptions hold.
+const MAX_CHANGES: usize = 16;
+/// Most values of fetched inputs that are tried for the same reason.
+const MAX_FILLINGS: usize = 16;
+
 impl<'p> Points<'p> {
+    /// Points at which the assumptions of a program hold.
+    pub fn assuming(program: &'p Program, effort: Effort) -> Self {
+        Self { assumed: true, ..Self::new(program, effort) }
+    }
+
     /// Points for a program; the same ones every time.
     pub fn new(program: &'p Program, effort: Effort) -> Self {
         let continuous = program.input_ids().filter(|(_, input)| input.fetched.is_none());
@@ -64,6 +76,7 @@ impl<'p> Points<'p> {
             interpreter: Interpreter::new(program),
             continuous: continuous.collect(),
             comparisons: comparisons.found,
+            assumed: false,
             random: 0x9e37_79b9_7f4a_7c15,
         }
     }
@@ -91,7 +104,11 @@ impl<'p> Points<'p> {
         }
         let mut points = Vec::with_capacity(bases.len());
         for base in bases {
-            self.fetch_paths(base, &mut points);
+            if !self.assumed {
+                self.fetch_paths(base, &mut points);
+            } else if let Some(base) = self.mended(base) {
+                self.fetch_paths(base, &mut points);
+            }
         }
         points
     }
@@ -184,8 +201,7 @@ impl<'p> Points<'p> {
             match self.interpreter.evaluate(&point) {
                 Ok(_) => {
                     // What is not needed is there all the same: whoever looks at it is found out.
-                    let point = self.filled(&point);
-                    points.push(point);
+                    points.extend(self.completed(&point));
                 }
                 Err(NeedsFetch(input)) => {
                     let values: Vec<Value> = match &self.program.inputs[input.index()].domain {
@@ -203,6 +219,70 @@ impl<'p> Points<'p> {
                 }
             }
         }
+    }
+
+    /// The point, with values for the fetched inputs that it leaves open; `None` if no assumption allows any.
+    fn completed(&mut self, point: &Point) -> Option<Point> {
+        if !self.assumed {
+            return Some(self.filled(point));
+        }
+        for _ in 0..MAX_FILLINGS {
+            let filled = self.filled(point);
+            if self.broken(&filled).is_none() {
+                return Some(filled);
+            }
+        }
+        None
+    }
+
+    /// An assumption that does not hold at a point.
+    fn broken(&mut self, point: &Point) -> Option<CondId> {
+        let program = self.program;
+        self.interpreter.place(point).ok()?;
+        let mut holds = |condition| self.interpreter.holds(condition).unwrap_or(true);
+        program.assumptions.iter().map(|assumption| assumption.condition).find(|condition| !holds(*condition))
+    }
+
+    /// A point near by at which the assumptions on continuous inputs hold, if one is found.
+    fn mended(&mut self, mut point: Point) -> Option<Point> {
+        for _ in 0..MAX_CHANGES {
+            let filled = self.completed(&point).unwrap_or_else(|| self.filled(&point));
+            let Some(condition) = self.broken(&filled) else { return Some(point) };
+            let mut comparisons = Comparisons::default();
+            comparisons.in_cond(self.program, condition);
+            let mut better = None;
+            for (a, b) in comparisons.found {
+                let inputs = self.program.pool.expr_facts(a).inputs.or(self.program.pool.expr_facts(b).inputs);
+                for (input, lo, hi) in self.continuous.clone() {
+                    if better.is_some() || !inputs.contains(input) {
+                        continue;
+                    }
+                    let mut tried = filled.clone();
+                    let mut difference = |me: &mut Self, value: f64| {
+                        tried[input.index()] = Some(single(value));
+                        me.difference(&tried, a, b)
+                    };
+                    let (at_lo, at_hi) = (difference(self, lo), difference(self, hi));
+                    let root = lo + (hi - lo) * at_lo / (at_lo - at_hi);
+                    let between = [lo + (hi - lo) * self.unit(), lo + (hi - lo) * self.unit()];
+                    for value in between.into_iter().chain([root, lo, hi]).filter(|v| (lo..=hi).contains(v)) {
+                        let mut tried = filled.clone();
+                        tried[input.index()] = Some(single(value));
+                        if better.is_none() && self.holds(&tried, condition) {
+                            better = Some((input, value));
+                        }
+                    }
+                }
+            }
+            // None is better if the assumption is on fetched inputs, which are seen to later.
+            let Some((input, value)) = better else { return Some(point) };
+            point[input.index()] = Some(single(value));
+        }
+        None
+    }
+
+    fn holds(&mut self, point: &Point, condition: CondId) -> bool {
+        self.interpreter.place(point).is_ok() && self.interpreter.holds(condition).unwrap_or(true)
     }
 
     /// The point, with random values for the fetched inputs that it leaves open.

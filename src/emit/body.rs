@@ -1,272 +1,280 @@
-//! Steps, conditions and expressions → statements of some language.
+//! Steps → the functions that decide, in some language.
 
-use std::collections::hash_map::Entry;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 
-use super::dialect::{Dialect, Prefix, Type, bare, call};
-use super::names::Names;
+use super::dialect::{Dialect, Prefix, Type, bare};
+use super::names::{Names, input_type};
+use super::outline::{FAN_OUT, MAX_LEVELS, Outline};
 use super::text::Text;
-use crate::plan::{Leaf, Plan, Step, StepId};
-use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, UnaryOp};
+use crate::plan::{Plan, Step, StepId};
+use crate::program::{CondId, Domain, InputSet, LevelKind};
 
-/// Prints the steps of one function.
+/// Prints steps: one function, and before it those that it calls.
 pub(super) struct Body<'a, 'p> {
     pub(super) plan: &'a Plan<'p>,
     pub(super) dialect: &'a dyn Dialect,
     pub(super) prefix: &'a Prefix,
     pub(super) names: &'a Names,
-    pub(super) text: &'a mut Text,
+    pub(super) outline: Outline,
+    /// The function that is being printed.
+    pub(super) text: Text,
+    /// Functions that are complete, in the order in which languages want them.
+    pub(super) functions: String,
+    /// The functions of shared steps.
+    shared: HashMap<StepId, String>,
+    /// Numbers the functions.
+    count: usize,
     /// Numbers the locals that have no name in the table.
     pub(super) temporaries: usize,
+    /// What inputs are called where they are not called by their own names.
+    pub(super) renamed: HashMap<String, String>,
+    /// What the result is called in the result map of a symmetry.
+    pub(super) result: String,
+    /// Behind symmetries: the parameter that says by which of them inputs are turned.
+    pub(super) turn: Option<String>,
 }
 
-/// What is in sight at a place of the code.
-#[derive(Default, Clone)]
-pub(super) struct Locals {
-    /// Expressions that have a name, or are a part of something that has.
-    pub(super) names: HashMap<ExprId, String>,
-    /// Conditions whose outcome is known here.
-    pub(super) decided: HashMap<CondId, bool>,
-    /// Arguments whose sine and cosine have a name, as a pair.
-    pub(super) pairs: HashMap<ExprId, String>,
-}
+impl<'a, 'p> Body<'a, 'p> {
+    pub(super) fn new(plan: &'a Plan<'p>, dialect: &'a dyn Dialect, prefix: &'a Prefix, names: &'a Names) -> Self {
+        Self {
+            plan,
+            dialect,
+            prefix,
+            names,
+            outline: Outline::new(plan),
+            text: Text::default(),
+            functions: String::new(),
+            shared: HashMap::new(),
+            count: 0,
+            temporaries: 0,
+            renamed: HashMap::new(),
+            result: String::new(),
+            turn: None,
+        }
+    }
 
-impl Body<'_, '_> {
-    /// Prints a step and everything after it. Every path ends in a return.
-    pub(super) fn step(&mut self, mut at: StepId) {
+    /// The function on the packed key, after all that it calls.
+    pub(super) fn decision(mut self, name: &str, parameters: &[(String, Type)]) -> String {
+        let root = self.plan.root();
+        self.text.comment("The table, on a packed key.");
+        self.open(name, parameters, self.outline.needs(root));
+        self.step(root, 0);
+        self.text.close();
+        self.text.gap();
+        self.functions + &self.text.finish()
+    }
+
+    /// Opens a function and takes from the key what it needs.
+    fn open(&mut self, name: &str, parameters: &[(String, Type)], needs: InputSet) {
+        self.text.open(self.dialect.function(name, parameters, &Type::Result, self.prefix));
+        for field in self.plan.key.fields().iter().filter(|field| needs.contains(field.input)) {
+            let input = &self.plan.program.inputs[field.input.index()];
+            let Domain::Discrete(levels) = &input.domain else { continue };
+            let shifted = match field.shift {
+                0 => "key".to_owned(),
+                shift => format!("(key >> {})", self.dialect.uint(shift)),
+            };
+            let level = format!("{shifted} & {}", self.dialect.uint(field.mask()));
+            let (ty, value) = match levels.kind {
+                LevelKind::Bool => (Type::Bool, format!("({level}) != {}", self.dialect.uint(0))),
+                _ => (Type::Uint, level),
+            };
+            self.text.line(self.dialect.local(&ty, &input.ident, &value, self.prefix));
+        }
+    }
+
+    /// The parameters of a function that needs these inputs.
+    fn parameters(&self, needs: InputSet, fetches: bool) -> Vec<(String, Type)> {
+        let program = self.plan.program;
+        let mut parameters = Vec::new();
+        if self.plan.key.fields().iter().any(|field| needs.contains(field.input)) {
+            parameters.push(("key".to_owned(), Type::Uint));
+        }
+        for input in needs.iter() {
+            let declared = &program.inputs[input.index()];
+            if declared.fetched.is_some() || matches!(declared.domain, Domain::Continuous { .. }) {
+                parameters.push((declared.ident.clone(), input_type(&declared.domain, Type::Uint)));
+            }
+        }
+        if fetches {
+            parameters.extend(self.turn.clone().map(|turn| (turn, Type::Uint)));
+            parameters.push(("site".to_owned(), Type::Site));
+        }
+        parameters
+    }
+
+    /// Prints a function and returns the call of it. `selector` is a parameter beside the inputs.
+    pub(super) fn function(
+        &mut self,
+        kind: &str,
+        selector: Option<&str>,
+        (needs, fetches): (InputSet, bool),
+        comment: &str,
+        fill: impl FnOnce(&mut Self),
+    ) -> String {
+        self.count += 1;
+        let name = self.dialect.global(self.prefix, &format!("{kind}_{}", self.count));
+        let mut parameters = self.parameters(needs, fetches);
+        parameters.splice(0..0, selector.map(|selector| (selector.to_owned(), Type::Uint)));
+        let (outer, renamed) = (std::mem::take(&mut self.text), std::mem::take(&mut self.renamed));
+        self.text.comment(comment);
+        self.open(&name, &parameters, needs);
+        fill(self);
+        self.text.close();
+        self.text.gap();
+        self.functions += &std::mem::replace(&mut self.text, outer).finish();
+        self.renamed = renamed;
+        let named = |name: &'_ String| self.renamed.get(name).unwrap_or(name).clone();
+        let arguments: Vec<String> = parameters
+            .iter()
+            .map(|(name, ty)| if *ty == Type::Site { self.dialect.site_argument().to_owned() } else { named(name) })
+            .collect();
+        format!("{name}({})", arguments.join(", "))
+    }
+
+    /// Prints a step and everything after it, inside of so many conditionals. Every path ends in a return.
+    fn step(&mut self, at: StepId, level: usize) {
+        if !self.outline.is_function(at) {
+            return self.step_here(at, level);
+        }
+        let call = match self.shared.get(&at) {
+            Some(call) => call.clone(),
+            None => {
+                let about = (self.outline.needs(at), self.outline.fetches(at));
+                let comment = "What several ways lead to.";
+                let call = self.function("from", None, about, comment, |me| me.step_here(at, level));
+                self.shared.insert(at, call.clone());
+                call
+            }
+        };
+        self.text.line(format!("return {call};"));
+    }
+
+    fn step_here(&mut self, mut at: StepId, mut level: usize) {
         loop {
             match self.plan.step(at).clone() {
                 Step::Test { condition, then, other } => {
-                    let mut locals = self.computed_constants(&[], &[condition]);
-                    self.operands(condition, &mut locals);
-                    let condition = self.condition(condition, &locals);
-                    let open = self.dialect.if_open(bare(&condition));
-                    self.text.open(open);
-                    self.step(then);
-                    self.text.close();
+                    let mut chain = vec![(condition, then)];
                     at = other;
+                    while let (false, Step::Test { condition, then, other }) =
+                        (self.outline.is_function(at), self.plan.step(at))
+                    {
+                        chain.push((*condition, *then));
+                        at = *other;
+                    }
+                    level += self.chain(&chain, level);
+                    if self.outline.is_function(at) {
+                        return self.step(at, level);
+                    }
                 }
                 Step::Fetch { input, next } => {
                     let (ident, ty) = self.names.fetched(self.plan.program, input);
-                    let call = self.dialect.fetch(self.prefix, &ident);
+                    let call = match &self.turn {
+                        Some(turn) => format!(
+                            "{}({turn}, {})",
+                            self.dialect.global(self.prefix, &format!("turned_{ident}")),
+                            self.dialect.site_argument()
+                        ),
+                        None => self.dialect.fetch(self.prefix, &ident),
+                    };
                     let line = self.dialect.local(&ty, &ident, &call, self.prefix);
                     self.text.line(line);
+                    if self.outline.is_function(next) {
+                        return self.step(next, level);
+                    }
                     at = next;
                 }
                 Step::Switch { arms } => {
-                    // The last way stands behind the choice, so that every
-                    // language sees that all paths return.
-                    if let Some((last, arms)) = arms.split_last() {
-                        let selector = format!("{}(key)", self.dialect.global(self.prefix, "arm"));
-                        self.text.open(self.dialect.switch_open(&selector));
-                        for (number, arm) in arms.iter().enumerate() {
-                            self.text.open(self.dialect.case_open(&[number as u32]));
-                            self.step(*arm);
-                            self.text.close();
-                        }
-                        self.text.line(self.dialect.case_default());
-                        self.text.close();
-                        self.step(*last);
-                    }
-                    return;
+                    let selector = format!("{}(key)", self.dialect.global(self.prefix, "arm"));
+                    return self.arms(&selector, 0, &arms, level);
                 }
+                Step::Coefficients { rest } => return self.coefficients(&rest, level),
+                Step::Orbit { arms } => return self.orbit(&arms),
                 Step::Leaf(leaf) => return self.leaf(&leaf),
             }
         }
     }
 
-    fn leaf(&mut self, leaf: &Leaf) {
-        let program = self.plan.program;
-        let file = self.names.file.clone();
-        let case = match leaf.row.map(|row| &program.rows[row]) {
-            None => {
-                self.text.comment("default: no case matches");
-                self.dialect.global_constant(self.prefix, "DEFAULT")
+    /// Tests one after the other. Returns how many conditionals what follows is inside of.
+    fn chain(&mut self, tests: &[(CondId, StepId)], level: usize) -> usize {
+        if tests.len() <= FAN_OUT || level + tests.len() <= MAX_LEVELS {
+            for (nested, (condition, then)) in tests.iter().enumerate() {
+                let mut locals = self.computed_constants(&[], &[*condition]);
+                self.operands(*condition, &mut locals);
+                let condition = self.condition(*condition, &locals);
+                let open = self.dialect.if_open(bare(&condition));
+                self.text.open(open);
+                self.step(*then, level + nested + 1);
+                self.text.close();
             }
-            Some(row) => {
-                let line = leaf.line.map(|line| &row.lines[line]);
-                let (number, place) = match (leaf.line, line) {
-                    (Some(_), Some(line)) if row.lines.len() == 1 => (String::new(), program.line(line.span)),
-                    (Some(number), Some(line)) => (format!(", line {}", number + 1), program.line(line.span)),
-                    _ => (", no line applies, so the default".to_owned(), program.line(row.span)),
-                };
-                let section = if row.section.is_empty() { String::new() } else { format!("section {}; ", row.section) };
-                self.text.comment(&format!("case {}{number}: {} ({section}{file}:{place})", row.id, row.doc));
-                self.dialect.uint(row.id)
+            return tests.len();
+        }
+        let parts = tests.chunks(tests.len().div_ceil(FAN_OUT));
+        let count = parts.len();
+        for (nested, part) in parts.enumerate() {
+            let mut about = (InputSet::default(), false);
+            for (condition, then) in part {
+                about.0 = about.0.or(self.plan.pool.cond_facts(*condition).inputs).or(self.outline.needs(*then));
+                about.1 |= self.outline.fetches(*then);
             }
-        };
-        let output = &program.output;
-        let components: Vec<String> = if output.is_integer() {
-            let locals = self.computed_constants(&leaf.values, &[]);
-            leaf.values.iter().map(|value| self.integer(*value, &locals)).collect()
-        } else {
-            let mut locals = self.computed_constants(&leaf.values, &[]);
-            self.declare(&leaf.values, &mut locals);
-            leaf.values.iter().map(|value| self.expr(*value, &locals)).collect()
-        };
-        let components: Vec<String> = components.iter().map(|c| bare(c).to_owned()).collect();
-        let value = self.dialect.value(self.prefix, output, &components);
-        let result = self.dialect.result(self.prefix, &value, &case);
-        self.text.line(format!("return {result};"));
+            let miss = self.names.miss(self.dialect);
+            let call = self.function("part", None, about, "Some of the tests; no case if none holds.", |me| {
+                me.chain(part, level + nested + 1);
+                let output = &me.plan.program.output;
+                let zero = if output.is_integer() { me.dialect.uint(0) } else { me.dialect.number(0.0) };
+                let value = me.dialect.value(me.prefix, output, &vec![zero; output.components()]);
+                let result = me.dialect.result(me.prefix, &value, &miss);
+                me.text.line(format!("return {result};"));
+            });
+            let name = self.temporary();
+            let local = self.dialect.local(&Type::Result, &name, &call, self.prefix);
+            self.text.line(local);
+            let open = self.dialect.if_open(&format!("{name}.case_id != {miss}"));
+            self.text.open(open);
+            self.text.line(format!("return {name};"));
+            self.text.close();
+        }
+        count
     }
 
-    pub(super) fn temporary(&mut self) -> String {
-        self.temporaries += 1;
-        format!("{}{}t", self.names.temporary, self.temporaries)
-    }
-
-    /// Declares locals for the constants of operations that must not be
-    /// evaluated by the shader's compiler: it would refuse `1.0 / 0.0`, or
-    /// compute it more exactly than the table does.
-    fn computed_constants(&mut self, exprs: &[ExprId], conditions: &[CondId]) -> Locals {
-        let mut found = Vec::new();
-        let (mut seen_exprs, mut seen_conds) = (BTreeSet::new(), BTreeSet::new());
-        let (mut exprs, mut conditions) = (exprs.to_vec(), conditions.to_vec());
-        let pool = &self.plan.pool;
-        loop {
-            if let Some(condition) = conditions.pop() {
-                if !seen_conds.insert(condition) {
-                    continue;
+    /// A choice by number; the first of the arms has the number `first`.
+    pub(super) fn arms(&mut self, selector: &str, first: usize, arms: &[StepId], level: usize) {
+        if level + arms.len() <= MAX_LEVELS || arms.len() <= FAN_OUT {
+            // The last way stands behind the choice, so that every
+            // language sees that all paths return.
+            let Some((last, others)) = arms.split_last() else { return };
+            if !others.is_empty() {
+                self.text.open(self.dialect.switch_open(selector));
+                for (number, arm) in (first..).zip(others) {
+                    self.text.open(self.dialect.case_open(&[number as u32]));
+                    self.step(*arm, level + number - first + 1);
+                    self.text.close();
                 }
-                match pool.cond(condition) {
-                    Cond::Const(_) | Cond::Level(..) => {}
-                    Cond::Compare(_, a, b) => {
-                        if pool.constant(*a).is_some() && pool.constant(*b).is_some() {
-                            found.push(*a);
-                        }
-                        exprs.extend([*a, *b]);
-                    }
-                    Cond::Not(a) => conditions.push(*a),
-                    Cond::And(parts) | Cond::Or(parts) => conditions.extend(parts),
-                    Cond::If(c, a, b) => conditions.extend([*c, *a, *b]),
-                }
-            } else if let Some(expr) = exprs.pop() {
-                if !seen_exprs.insert(expr) {
-                    continue;
-                }
-                let node = pool.node(expr);
-                if let Node::Select(condition, ..) = node {
-                    conditions.push(condition);
-                }
-                let children = children(node);
-                if !pool.folds(node) {
-                    found.extend(children.iter().copied().filter(|child| pool.constant(*child).is_some()));
-                }
-                exprs.extend(children);
-            } else {
-                break;
+                self.text.line(self.dialect.case_default());
+                self.text.close();
             }
+            return self.step(*last, level + others.len());
         }
-        let mut locals = Locals::default();
-        for constant in found {
-            if let Entry::Vacant(entry) = locals.names.entry(constant) {
-                let name = self.temporary();
-                let value = self.expr(constant, &Locals::default());
-                self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
-                entry.insert(name);
-            }
+        // Only a call is worth a name.
+        let name = if selector.ends_with(')') { self.temporary() } else { selector.to_owned() };
+        if name != selector {
+            let local = self.dialect.local(&Type::Uint, &name, selector, self.prefix);
+            self.text.line(local);
         }
-        locals
-    }
-
-    pub(super) fn expr(&self, expr: ExprId, locals: &Locals) -> String {
-        if let Some(name) = locals.names.get(&expr) {
-            return name.clone();
-        }
-        let of = |e: ExprId| self.expr(e, locals);
-        match self.plan.pool.node(expr) {
-            Node::Const(number) => self.dialect.number(number.get()),
-            Node::Input(input) => self.plan.program.inputs[input.index()].ident.clone(),
-            // Occurs in the result map of a symmetry only, which is not part of any plan.
-            Node::Result => String::new(),
-            Node::Unary(op @ (UnaryOp::PortableSin | UnaryOp::PortableCos), a) => {
-                let pair = call(&self.dialect.global(self.prefix, "sincos"), &[&of(a)]);
-                self.dialect.of_pair(&pair, op == UnaryOp::PortableCos)
+        let (low, high) = arms.split_at(arms.len() / 2);
+        let calls = [(first, low), (first + low.len(), high)].map(|(first, arms)| {
+            let mut about = (InputSet::default(), false);
+            for arm in arms {
+                about.0 = about.0.or(self.outline.needs(*arm));
+                about.1 |= self.outline.fetches(*arm);
             }
-            Node::Unary(op, a) => self.dialect.unary(op, &of(a)),
-            Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
-            Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),
-            Node::Select(c, a, b) => {
-                if let Some(outcome) = locals.decided.get(&c) {
-                    return of(if *outcome { a } else { b });
-                }
-                let (a, b) = (of(a), of(b));
-                self.dialect.select(bare(&self.condition(c, locals)), bare(&a), bare(&b))
-            }
-        }
-    }
-
-    /// An expression of whole numbers: constants and selections.
-    fn integer(&self, expr: ExprId, locals: &Locals) -> String {
-        match self.plan.pool.node(expr) {
-            Node::Select(c, a, b) => {
-                let condition = self.condition(c, locals);
-                self.dialect.select(bare(&condition), &self.integer(a, locals), &self.integer(b, locals))
-            }
-            Node::Const(number) => self.dialect.uint(number.get() as u32),
-            _ => self.dialect.uint(0),
-        }
-    }
-
-    pub(super) fn condition(&self, condition: CondId, locals: &Locals) -> String {
-        let joined = |parts: &[CondId], symbol: &str| {
-            let parts: Vec<String> = parts.iter().map(|part| self.condition(*part, locals)).collect();
-            format!("({})", parts.join(symbol))
-        };
-        match self.plan.pool.cond(condition) {
-            Cond::Const(value) => value.to_string(),
-            Cond::Level(input, levels) => self.level(*input, *levels),
-            Cond::Compare(op, a, b) => {
-                let symbol = match op {
-                    Comparison::Less => "<",
-                    Comparison::LessEqual => "<=",
-                    Comparison::Equal => "==",
-                };
-                format!("({} {symbol} {})", self.expr(*a, locals), self.expr(*b, locals))
-            }
-            Cond::Not(a) => match self.plan.pool.cond(*a) {
-                Cond::Level(input, levels) => {
-                    let count = self.plan.program.levels(*input).map_or(0, |known| known.count());
-                    self.level(*input, LevelSet(LevelSet::all(count).0 & !levels.0))
-                }
-                _ => format!("!({})", bare(&self.condition(*a, locals))),
-            },
-            Cond::And(parts) => joined(parts, " && "),
-            Cond::Or(parts) => joined(parts, " || "),
-            Cond::If(c, a, b) => {
-                let [c, a, b] = [c, a, b].map(|part| self.condition(*part, locals));
-                self.dialect.select(bare(&c), bare(&a), bare(&b))
-            }
-        }
-    }
-
-    fn level(&self, input: InputId, levels: LevelSet) -> String {
-        let declared = &self.plan.program.inputs[input.index()];
-        let name = &declared.ident;
-        let Domain::Discrete(known) = &declared.domain else { return "false".to_owned() };
-        if known.kind == LevelKind::Bool {
-            return if levels.contains(1) { name.clone() } else { format!("!{name}") };
-        }
-        let constant = |level: u8| self.names.level(self.plan.program, input, level);
-        let inside: Vec<u8> = levels.iter().collect();
-        let outside: Vec<u8> = (0..known.count() as u8).filter(|l| !levels.contains(*l)).collect();
-        let all = |levels: &[u8], symbol: &str, joint: &str| {
-            let parts: Vec<String> = levels.iter().map(|l| format!("{name} {symbol} {}", constant(*l))).collect();
-            if let [one] = parts.as_slice() {
-                return format!("({one})");
-            }
-            let parts: Vec<String> = parts.iter().map(|p| format!("({p})")).collect();
-            format!("({})", parts.join(joint))
-        };
-        if inside.len() <= outside.len() { all(&inside, "==", " || ") } else { all(&outside, "!=", " && ") }
-    }
-}
-
-pub(super) fn children(node: Node) -> Vec<ExprId> {
-    match node {
-        Node::Const(_) | Node::Input(_) | Node::Result => Vec::new(),
-        Node::Unary(_, a) => vec![a],
-        Node::Binary(_, a, b) | Node::Select(_, a, b) => vec![a, b],
-        Node::Ternary(_, a, b, c) => vec![a, b, c],
+            let comment = format!("Ways {first} to {}.", first + arms.len() - 1);
+            self.function("arms", Some(&name), about, &comment, |me| me.arms(&name, first, arms, level + 1))
+        });
+        let middle = self.dialect.uint((first + low.len()) as u32);
+        self.text.open(self.dialect.if_open(&format!("{name} < {middle}")));
+        self.text.line(format!("return {};", calls[0]));
+        self.text.close();
+        self.text.line(format!("return {};", calls[1]));
     }
 }

@@ -142,6 +142,8 @@ pub(super) trait Dialect {
     fn select(&self, condition: &str, then: &str, other: &str) -> String;
     /// 0 or 1.
     fn bool_to_uint(&self, condition: &str) -> String;
+    /// The number whose bits a word holds.
+    fn float_from_bits(&self, word: &str) -> String;
     /// Calls the host for a fetched input.
     fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
         format!("{}_fetch_{ident}(site)", prefix.lower)

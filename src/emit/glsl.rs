@@ -121,6 +121,10 @@ impl Dialect for Glsl {
         format!("uint({condition})")
     }
 
+    fn float_from_bits(&self, word: &str) -> String {
+        format!("uintBitsToFloat({word})")
+    }
+
     fn unary(&self, op: UnaryOp, a: &str) -> String {
         match op {
             UnaryOp::Negate => format!("(-{a})"),

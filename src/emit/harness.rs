@@ -13,7 +13,7 @@ use super::glsl::{Glsl, GlslVersion};
 use super::module;
 use super::names::fetches;
 use super::wgsl::Wgsl;
-use crate::plan::{LookupPlace, Proved, Shape};
+use crate::plan::Proved;
 use crate::program::{Domain, LevelKind, Output, Program};
 
 /// Threads of a workgroup.
@@ -136,7 +136,7 @@ pub fn glsl_library(proved: &Proved<'_>, library: &str, version: GlslVersion) ->
 
 /// Whether a plan reads a lookup that the host has to supply.
 pub fn reads_lookup(proved: &Proved<'_>) -> bool {
-    proved.plan().shape == Shape::Switch(LookupPlace::Buffer)
+    proved.plan().shape.reads_buffer()
 }
 
 /// A complete WGSL compute shader that runs the table over columns.

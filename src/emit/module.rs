@@ -5,14 +5,16 @@
 //! without the case. A level that arrives as `f32` is the one whose code is
 //! nearest, so that no test relies on float equality.
 
-use std::collections::BTreeSet;
+use std::collections::HashMap;
 
 use super::body::Body;
 use super::dialect::{Dialect, Prefix, Type};
+use super::lookup;
 use super::names::{Names, fetches, input_type};
+use super::outline::MAX_LEVELS;
 use super::text::Text;
-use crate::plan::{KeyLayout, LookupPlace, Plan, Proved, Shape, Step};
-use crate::program::{BinaryOp, Domain, InputId, LevelKind, Levels, Node, Output, Program, UnaryOp};
+use crate::plan::{KeyLayout, Plan, Proved};
+use crate::program::{BinaryOp, Domain, Levels, Node, Output, Program, UnaryOp};
 
 /// Writes the module of a plan.
 pub(super) fn write(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
@@ -55,6 +57,22 @@ impl Writer<'_, '_> {
         }
         text.comment(&format!("Table:  {}, {} cases", program.fingerprint(), program.rows.len()));
         text.comment(&format!("Plan:   {}", self.plan.shape));
+        if let Some(weighed) = &self.plan.weighed {
+            text.comment(&format!("Weight: {weighed}"));
+        }
+        if let Some(certificate) = &self.plan.certificate {
+            text.comment(&format!("Cost:   {certificate}"));
+        }
+        for note in &self.plan.notes {
+            text.comment(&format!("Note:   {note}"));
+        }
+        if self.plan.assumed {
+            let names: Vec<&str> = program.assumptions.iter().map(|a| a.name.as_str()).collect();
+            text.comment(&format!(
+                "Assume: {}; anything may come out where one of them does not hold",
+                names.join(", ")
+            ));
+        }
         text.comment(&format!("Proof:  {}", proved.proof()));
         text.gap();
     }
@@ -66,7 +84,9 @@ impl Writer<'_, '_> {
             self.text.line(prologue);
             self.text.gap();
         }
-        self.text.comment("Levels, as they stand in a key and as a fetch returns them.");
+        if !self.names.sets.is_empty() {
+            self.text.comment("Levels, as they stand in a key and as a fetch returns them.");
+        }
         for set in &self.names.sets {
             for (index, name) in set.constants.iter().enumerate() {
                 self.text.line(self.dialect.constant(name, index as u32));
@@ -142,7 +162,10 @@ impl Writer<'_, '_> {
     fn pack_function(&mut self) {
         let program = self.plan.program;
         let name = self.dialect.global(&self.prefix, "pack");
-        self.text.comment(&format!("The key of a state: {}.", describe_key(program, &self.plan.key)));
+        self.text.comment(&match program.states.digits().is_empty() {
+            true => "The key of the only state: there are no discrete inputs.".to_owned(),
+            false => format!("The key of a state: {}.", describe_key(program, &self.plan.key)),
+        });
         self.text.open(self.dialect.function(&name, &self.discrete(), &Type::Uint, &self.prefix));
         let mut parts = Vec::new();
         for field in self.plan.key.fields() {
@@ -167,37 +190,12 @@ impl Writer<'_, '_> {
 
     /// Two functions: the word of the lookup that holds a key's arm, and the arm.
     fn lookup(&mut self) {
-        let words = lookup_words(self.plan);
-        let per_word = entries_per_word(self.plan);
+        let words = lookup::words(self.plan, self.names.default);
+        let per_word = lookup::entries_per_word(self.plan);
         let bits = 32 / per_word;
-        if self.plan.shape == Shape::Switch(LookupPlace::Constants) {
-            let name = self.dialect.global(&self.prefix, "lookup");
+        if !self.plan.shape.reads_buffer() {
             self.text.comment("The lookup, packed; the commonest word stands last.");
-            let parameter = ("word".to_owned(), Type::Uint);
-            self.text.open(self.dialect.function(&name, &[parameter], &Type::Uint, &self.prefix));
-            let mut groups: Vec<(u32, Vec<u32>)> = Vec::new();
-            for (index, word) in words.iter().enumerate() {
-                match groups.iter_mut().find(|(w, _)| w == word) {
-                    Some((_, indices)) => indices.push(index as u32),
-                    None => groups.push((*word, vec![index as u32])),
-                }
-            }
-            let commonest = (0..groups.len()).max_by_key(|i| (groups[*i].1.len(), usize::MAX - i)).unwrap_or_default();
-            let last = groups.remove(commonest);
-            if !groups.is_empty() {
-                self.text.open(self.dialect.switch_open("word"));
-                for (word, indices) in &groups {
-                    self.text.line(format!(
-                        "{} return {}; }}",
-                        self.dialect.case_open(indices),
-                        self.dialect.uint(*word)
-                    ));
-                }
-                self.text.line(self.dialect.case_default());
-                self.text.close();
-            }
-            self.text.line(format!("return {};", self.dialect.uint(last.0)));
-            self.text.close();
+            self.lookup_constants("lookup", 0, &words);
         } else {
             self.text.comment(&format!(
                 "The lookup is a buffer of {} words, of which the host supplies a reader `{}`.",
@@ -224,6 +222,56 @@ impl Writer<'_, '_> {
         self.text.gap();
     }
 
+    /// A function that returns a word, the first of which has the number `first`.
+    fn lookup_constants(&mut self, name: &str, first: usize, words: &[u32]) {
+        let mut groups: Vec<(u32, Vec<u32>)> = Vec::new();
+        let mut place: HashMap<u32, usize> = HashMap::new();
+        for (index, word) in (first as u32..).zip(words) {
+            let group = *place.entry(*word).or_insert(groups.len());
+            match groups.get_mut(group) {
+                Some((_, indices)) => indices.push(index),
+                None => groups.push((*word, vec![index])),
+            }
+        }
+        let halves = (groups.len() > MAX_LEVELS).then(|| words.split_at(words.len() / 2));
+        let mut calls = Vec::new();
+        if let Some((low, high)) = halves {
+            for (part, first, words) in [("low", first, low), ("high", first + low.len(), high)] {
+                let part = format!("{name}_{part}");
+                self.lookup_constants(&part, first, words);
+                self.text.gap();
+                calls.push(format!("{}(word)", self.dialect.global(&self.prefix, &part)));
+            }
+        }
+        let global = self.dialect.global(&self.prefix, name);
+        let parameter = ("word".to_owned(), Type::Uint);
+        self.text.open(self.dialect.function(&global, &[parameter], &Type::Uint, &self.prefix));
+        if let (Some((low, _)), [below, above]) = (halves, calls.as_slice()) {
+            let middle = self.dialect.uint((first + low.len()) as u32);
+            self.text.open(self.dialect.if_open(&format!("word < {middle}")));
+            self.text.line(format!("return {below};"));
+            self.text.close();
+            self.text.line(format!("return {above};"));
+        } else {
+            let commonest = (0..groups.len()).max_by_key(|i| (groups[*i].1.len(), usize::MAX - i)).unwrap_or_default();
+            let last = groups.remove(commonest);
+            if !groups.is_empty() {
+                self.text.open(self.dialect.switch_open("word"));
+                for (word, indices) in &groups {
+                    self.text.line(format!(
+                        "{} return {}; }}",
+                        self.dialect.case_open(indices),
+                        self.dialect.uint(*word)
+                    ));
+                }
+                self.text.line(self.dialect.case_default());
+                self.text.close();
+            }
+            self.text.line(format!("return {};", self.dialect.uint(last.0)));
+        }
+        self.text.close();
+    }
+
     fn continuous(&self) -> Vec<(String, Type)> {
         let inputs = self.plan.program.inputs.iter().filter(|input| input.fetched.is_none());
         inputs
@@ -238,40 +286,12 @@ impl Writer<'_, '_> {
     }
 
     fn decision(&mut self) {
-        let program = self.plan.program;
         let [.., name] = self.dialect.entry_names(&self.prefix);
         let mut parameters = vec![("key".to_owned(), Type::Uint)];
         parameters.extend(self.continuous());
         parameters.extend(self.site());
-        self.text.comment("The table, on a packed key.");
-        self.text.open(self.dialect.function(&name, &parameters, &Type::Result, &self.prefix));
-        let used = used_inputs(self.plan);
-        for field in self.plan.key.fields().iter().filter(|field| used.contains(&field.input)) {
-            let input = &program.inputs[field.input.index()];
-            let Domain::Discrete(levels) = &input.domain else { continue };
-            let shifted = match field.shift {
-                0 => "key".to_owned(),
-                shift => format!("(key >> {})", self.dialect.uint(shift)),
-            };
-            let level = format!("{shifted} & {}", self.dialect.uint(field.mask()));
-            let (ty, value) = match levels.kind {
-                LevelKind::Bool => (Type::Bool, format!("({level}) != {}", self.dialect.uint(0))),
-                _ => (Type::Uint, level),
-            };
-            let local = self.dialect.local(&ty, &input.ident, &value, &self.prefix);
-            self.text.line(local);
-        }
-        let mut body = Body {
-            plan: self.plan,
-            dialect: self.dialect,
-            prefix: &self.prefix,
-            names: &self.names,
-            text: &mut self.text,
-            temporaries: 0,
-        };
-        body.step(self.plan.root());
-        self.text.close();
-        self.text.gap();
+        let body = Body::new(self.plan, self.dialect, &self.prefix, &self.names);
+        self.text.line(body.decision(&name, &parameters));
     }
 
     /// The other entry points.
@@ -338,57 +358,12 @@ fn describe_key(program: &Program, key: &KeyLayout) -> String {
     fields.collect::<Vec<_>>().join(", ")
 }
 
-/// The inputs that the steps of a plan look at.
-fn used_inputs(plan: &Plan<'_>) -> BTreeSet<InputId> {
-    let mut used = BTreeSet::new();
-    let mut seen = BTreeSet::new();
-    let mut open = vec![plan.root()];
-    while let Some(at) = open.pop() {
-        if !seen.insert(at) {
-            continue;
-        }
-        match plan.step(at) {
-            Step::Test { condition, then, other } => {
-                used.extend(plan.pool.cond_facts(*condition).inputs.iter());
-                open.extend([*then, *other]);
-            }
-            Step::Fetch { next, .. } => open.push(*next),
-            Step::Switch { arms } => open.extend(arms),
-            Step::Leaf(leaf) => used.extend(leaf.values.iter().flat_map(|v| plan.pool.expr_facts(*v).inputs.iter())),
-        }
-    }
-    used
-}
-
 /// Whether some operation occurs anywhere.
 fn uses(plan: &Plan<'_>, operation: impl Fn(Node) -> bool) -> bool {
     plan.pool.nodes().any(operation)
 }
 
-/// Entries of the lookup per word: arms are stored in 8 or 16 bits.
-fn entries_per_word(plan: &Plan<'_>) -> u32 {
-    if plan.lookup.iter().all(|arm| *arm < 256) { 4 } else { 2 }
-}
-
-/// The words of a plan's lookup, by key: the arms of consecutive keys, the
-/// lowest key in the lowest bits. Keys that are no state hold the commonest
-/// arm. Empty for plans without a lookup.
+/// The words that a plan's lookup consists of; empty for plans without one.
 pub fn lookup_words(plan: &Plan<'_>) -> Vec<u32> {
-    if plan.lookup.is_empty() {
-        return Vec::new();
-    }
-    let mut counts = vec![0_usize; plan.lookup.iter().copied().max().map_or(0, usize::from) + 1];
-    plan.lookup.iter().for_each(|arm| counts[usize::from(*arm)] += 1);
-    let commonest = (0..counts.len()).max_by_key(|arm| counts[*arm]).unwrap_or_default() as u32;
-    let per_word = entries_per_word(plan);
-    let bits = 32 / per_word;
-    let entries = 1_usize << plan.key.bits();
-    let mut arms = vec![commonest; entries.max(per_word as usize)];
-    let program = plan.program;
-    let mut levels = vec![0; program.inputs.len()];
-    for (state, arm) in plan.lookup.iter().enumerate() {
-        program.states.write(state, &mut levels);
-        arms[plan.key.pack(|input| levels[input.index()]) as usize] = u32::from(*arm);
-    }
-    arms.chunks(per_word as usize).map(|chunk| chunk.iter().rev().fold(0, |word, arm| word << bits | arm)).collect()
+    lookup::words(plan, Names::new(plan.program).default)
 }

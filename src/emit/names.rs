@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::dialect::{Prefix, Type};
+use super::dialect::{Dialect, Prefix, Type};
 use crate::program::{Domain, InputId, LevelKind, Levels, Program};
 
 /// Names of generated things that depend on the whole table.
@@ -15,6 +15,8 @@ pub(super) struct Names {
     hidden: BTreeSet<String>,
     /// The number that stands for no case.
     pub(super) default: u32,
+    /// The number that stands for no result: some tests were gone through, others follow.
+    miss: u32,
     /// Every set of named or integer levels.
     pub(super) sets: Vec<Set>,
 }
@@ -72,13 +74,19 @@ impl Names {
         }
         let file = program.source.name.rsplit('/').next().unwrap_or_default().to_owned();
         let used: BTreeSet<u32> = program.rows.iter().map(|row| row.id).collect();
-        let default = (0..=u32::MAX).rev().find(|id| !used.contains(id)).unwrap_or(u32::MAX);
-        Self { file, temporary, hidden, default, sets }
+        let mut unused = (0..=u32::MAX).rev().filter(|id| !used.contains(id));
+        let (default, miss) = (unused.next().unwrap_or(u32::MAX), unused.next().unwrap_or(0));
+        Self { file, temporary, hidden, default, miss, sets }
     }
 
     /// Whether a local of this name would hide something.
     pub(super) fn hides(&self, name: &str) -> bool {
         self.hidden.contains(name)
+    }
+
+    /// The number of the case where a part of the tests found none.
+    pub(super) fn miss(&self, dialect: &dyn Dialect) -> String {
+        dialect.uint(self.miss)
     }
 
     pub(super) fn set(&self, levels: &Levels) -> Option<&Set> {

@@ -115,6 +115,10 @@ impl Dialect for Rust {
         format!("site.{ident}()")
     }
 
+    fn float_from_bits(&self, word: &str) -> String {
+        format!("f32::from_bits({word})")
+    }
+
     fn unary(&self, op: UnaryOp, a: &str) -> String {
         // Functions that are not correctly rounded go through f64 and round once.
         let wide = |name: &str| format!("(f64::{name}(f64::from({a} as f32)) as f32)");

@@ -8,8 +8,9 @@
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-use super::body::{Body, Locals, children};
+use super::body::Body;
 use super::dialect::{Type, bare, call};
+use super::terms::{Locals, children};
 use crate::program::{BinaryOp, Cond, CondId, ExprId, Node, Pool, UnaryOp};
 
 /// Deepest nesting of a printed expression; what is deeper gets a local.

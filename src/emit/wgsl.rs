@@ -84,6 +84,10 @@ impl Dialect for Wgsl {
         format!("u32({condition})")
     }
 
+    fn float_from_bits(&self, word: &str) -> String {
+        format!("bitcast<f32>({word})")
+    }
+
     fn unary(&self, op: UnaryOp, a: &str) -> String {
         match UNARY_FUNCTIONS.iter().find(|(_, o)| *o == op) {
             Some((name, _)) => call(name, &[a]),

@@ -24,11 +24,11 @@
 //!   they are left out: the host has followed the exact one and cannot supply
 //!   what it never produced.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use super::interval::Interval;
 use super::{Interpreter, NeedsFetch};
-use crate::program::{BinaryOp, Cond, CondId, ExprId, Node, Program, UnaryOp, Value};
+use crate::program::{BinaryOp, Cond, CondId, ExprId, InputId, InputSet, Node, Program, UnaryOp, Value};
 
 /// Most evaluations that are followed at one point.
 const MAX_FORKS: usize = 512;
@@ -40,6 +40,8 @@ pub struct Possible {
     pub row: Option<usize>,
     /// The values that each component may have.
     pub values: Vec<Interval>,
+    /// The inputs that may have been fetched for them.
+    pub fetched: InputSet,
 }
 
 /// All results that are admissible at a point.
@@ -60,14 +62,24 @@ impl Admissible {
         self.everything || self.outcomes.iter().any(|possible| possible.row == row && fits(possible))
     }
 
+    /// Whether a result is admissible that fetched these inputs.
+    pub fn contains_fetching(&self, row: Option<usize>, values: &[f32], fetched: InputSet) -> bool {
+        let fits = |possible: &Possible| {
+            fetched.minus(possible.fetched).is_empty()
+                && possible.values.iter().zip(values).all(|(interval, value)| interval.contains(*value))
+        };
+        self.everything || self.outcomes.iter().any(|possible| possible.row == row && fits(possible))
+    }
+
     /// Whether values are admissible with whichever row.
     pub fn contains_values(&self, values: &[f32]) -> bool {
         self.everything || self.outcomes.iter().any(|possible| self.contains(possible.row, values))
     }
 
     fn add(&mut self, new: Possible) {
-        let covers =
-            |a: &Possible, b: &Possible| a.row == b.row && a.values.iter().zip(&b.values).all(|(a, b)| a.covers(*b));
+        let covers = |a: &Possible, b: &Possible| {
+            a.row == b.row && a.fetched == b.fetched && a.values.iter().zip(&b.values).all(|(a, b)| a.covers(*b))
+        };
         if self.outcomes.iter().any(|old| covers(old, &new)) {
             return;
         }
@@ -96,6 +108,10 @@ pub struct IntervalInterpreter<'p> {
     exact: Interpreter<'p, f32>,
     point: Vec<Option<Value>>,
     choices: Vec<(Choice, bool)>,
+    /// What the evaluation under way has fetched.
+    fetched: Cell<InputSet>,
+    /// How far every continuous input may be off.
+    slack: f64,
     /// What operations came to in this evaluation, so that what is shared is computed once.
     known: RefCell<Vec<Option<Interval>>>,
 }
@@ -104,7 +120,27 @@ impl<'p> IntervalInterpreter<'p> {
     /// An interpreter of `program`.
     pub fn new(program: &'p Program) -> Self {
         let known = RefCell::new(vec![None; program.pool.len()]);
-        Self { program, exact: Interpreter::new(program), point: Vec::new(), choices: Vec::new(), known }
+        Self {
+            known,
+            program,
+            exact: Interpreter::new(program),
+            point: Vec::new(),
+            choices: Vec::new(),
+            fetched: Cell::default(),
+            slack: 0.0,
+        }
+    }
+
+    /// All results admissible at some point near a point: for code that
+    /// computes the same over the reals, but not by the same operations.
+    ///
+    /// # Errors
+    /// With the first input that the exact evaluation needs but that is absent.
+    pub fn admissible_near(&mut self, point: &[Option<Value>], slack: f64) -> Result<Admissible, NeedsFetch> {
+        self.slack = slack;
+        let found = self.admissible(point);
+        self.slack = 0.0;
+        found
     }
 
     /// All results admissible at a point. Numbers are rounded to `f32` first.
@@ -120,6 +156,7 @@ impl<'p> IntervalInterpreter<'p> {
         let mut all = Admissible { outcomes: Vec::new(), everything: false };
         let (mut forks, mut checked) = (0, false);
         self.known.get_mut().fill(None);
+        self.fetched.set(InputSet::default());
         loop {
             match self.evaluate() {
                 Ok(possible) => all.add(possible),
@@ -147,6 +184,7 @@ impl<'p> IntervalInterpreter<'p> {
                 Some((_, taken)) => *taken = false,
             }
             self.known.get_mut().fill(None);
+            self.fetched.set(InputSet::default());
         }
     }
 
@@ -168,7 +206,13 @@ impl<'p> IntervalInterpreter<'p> {
 
     fn possible(&self, row: Option<usize>, values: &[ExprId]) -> Result<Possible, Stop> {
         let values = values.iter().map(|value| self.number(*value)).collect::<Result<_, _>>()?;
-        Ok(Possible { row, values })
+        Ok(Possible { row, values, fetched: self.fetched.get() })
+    }
+
+    fn look_at(&self, input: InputId) {
+        if self.program.fetched.contains(input) {
+            self.fetched.set(self.fetched.get().or(InputSet::one(input)));
+        }
     }
 
     fn choice(&self, choice: Choice) -> Result<bool, Stop> {
@@ -180,7 +224,10 @@ impl<'p> IntervalInterpreter<'p> {
         match self.program.pool.cond(condition) {
             Cond::Const(value) => Ok(*value),
             Cond::Level(input, levels) => match self.point[input.index()] {
-                Some(Value::Level(level)) => Ok(levels.contains(level)),
+                Some(Value::Level(level)) => {
+                    self.look_at(*input);
+                    Ok(levels.contains(level))
+                }
                 _ => Err(Stop::Missing),
             },
             Cond::Compare(op, a, b) => {
@@ -224,7 +271,10 @@ impl<'p> IntervalInterpreter<'p> {
         match self.program.pool.node(expr) {
             Node::Const(number) => Ok(Interval::constant(number.get())),
             Node::Input(input) => match self.point[input.index()] {
-                Some(Value::Number(number)) => Ok(Interval::exactly(number as f32)),
+                Some(Value::Number(number)) => {
+                    self.look_at(input);
+                    Ok(Interval::near(number as f32, self.slack))
+                }
                 _ => Err(Stop::Missing),
             },
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.

@@ -52,6 +52,11 @@ impl Interval {
         Self::around(value, value)
     }
 
+    /// Any value from `slack` below this one to `slack` above.
+    pub fn near(value: f32, slack: f64) -> Self {
+        Self::around(f64::from(value) - slack, f64::from(value) + slack)
+    }
+
     /// The smallest admissible value.
     pub fn lo(self) -> f64 {
         self.lo

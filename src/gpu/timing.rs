@@ -81,6 +81,17 @@ impl<'a> Marks<'a> {
         })
     }
 
+    /// For the first and the last of several compute passes that are measured together.
+    pub(crate) fn span(&self) -> [Option<wgpu::ComputePassTimestampWrites<'a>>; 2] {
+        [(Some(0), None), (None, Some(1))].map(|(start, end)| {
+            self.set.map(|query_set| wgpu::ComputePassTimestampWrites {
+                query_set,
+                beginning_of_pass_write_index: start,
+                end_of_pass_write_index: end,
+            })
+        })
+    }
+
     /// For a render pass.
     pub(crate) fn render(&self) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
         self.set.map(|query_set| wgpu::RenderPassTimestampWrites {

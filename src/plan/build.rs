@@ -10,7 +10,9 @@ use std::collections::HashMap;
 
 use super::key::KeyLayout;
 use super::knowledge::Knowledge;
-use super::{Leaf, LookupPlace, Plan, Shape, Step, StepId};
+use super::setting::Setting;
+use super::{Coefficients, Leaf, LookupPlace, Plan, Shape, Step, StepId};
+use crate::program::claims::Claims;
 use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
 
 /// Most steps of a plan.
@@ -19,16 +21,16 @@ const MAX_STEPS: usize = 200_000;
 const MAX_DEPTH: usize = 400;
 /// Most entries of a lookup in constants, and in a buffer.
 const MAX_CONSTANT_KEYS: u32 = 12;
-const MAX_BUFFER_KEYS: u32 = 24;
+pub(super) const MAX_BUFFER_KEYS: u32 = 24;
 
-type Result<T> = std::result::Result<T, String>;
+pub(super) type Result<T> = std::result::Result<T, String>;
 /// Rows that may be taken, with what is left of their guards.
-type Guarded = Vec<(usize, CondId)>;
+pub(super) type Guarded = Vec<(usize, CondId)>;
 type Next<'a, 'p> = &'a dyn Fn(&mut Builder<'p>, &Knowledge) -> Result<StepId>;
 
-struct Builder<'p> {
-    program: &'p Program,
-    pool: Pool,
+pub(super) struct Builder<'p> {
+    pub(super) program: &'p Program,
+    pub(super) pool: Pool,
     steps: Vec<Step>,
     index: HashMap<Step, StepId>,
     depth: usize,
@@ -44,7 +46,8 @@ pub(super) fn ladder(program: &Program) -> Result<Plan<'_>> {
 
 /// The packed key selects the case, or the few that conditions on continuous
 /// and fetched inputs still have to decide between.
-pub(super) fn switch(program: &Program, shape: Shape) -> Result<Plan<'_>> {
+pub(super) fn switch<'p>(setting: &Setting<'p, '_>, shape: Shape) -> Result<Plan<'p>> {
+    let program = setting.program;
     let key = KeyLayout::new(program)?;
     let limit = match shape {
         Shape::Switch(LookupPlace::Buffer) => MAX_BUFFER_KEYS,
@@ -58,50 +61,101 @@ pub(super) fn switch(program: &Program, shape: Shape) -> Result<Plan<'_>> {
         ));
     }
     let mut builder = Builder::new(program);
-    // Each way to go, with the levels that occur on it.
-    let mut arms: Vec<(Guarded, Vec<LevelSet>)> = Vec::new();
-    let mut arm_index: HashMap<Guarded, u16> = HashMap::new();
-    let mut lookup = Vec::with_capacity(program.states.count());
-    let mut levels = vec![0; program.inputs.len()];
-    for state in 0..program.states.count() {
-        program.states.write(state, &mut levels);
-        let rows = builder.rows_of_state(&levels);
-        let arm = match arm_index.get(&rows) {
-            Some(arm) => *arm,
-            None => {
-                let arm = u16::try_from(arms.len()).map_err(|_| "it has more than 65535 ways to go".to_owned())?;
-                arm_index.insert(rows.clone(), arm);
-                arms.push((rows, vec![LevelSet(0); program.inputs.len()]));
-                arm
-            }
-        };
-        for (input, _) in program.states.digits() {
-            arms[usize::from(arm)].1[input.index()].0 |= LevelSet::one(levels[input.index()]).0;
-        }
-        lookup.push(arm);
-    }
-    let mut steps = Vec::new();
-    for (rows, hull) in arms {
-        let mut known = Knowledge::none(program);
-        for (input, _) in program.states.digits() {
-            known.restrict(*input, hull[input.index()]);
-        }
-        steps.push(builder.rows(&rows, &known)?);
-    }
+    let arms = Arms::new(&mut builder, setting)?;
+    let steps = arms.steps(&mut builder)?;
+    // States that do not occur go where most go.
+    let lookup = arms.of_state(setting).into_iter().map(|arm| arm.unwrap_or_default()).collect();
     let root = builder.push(Step::Switch { arms: steps })?;
     Ok(builder.finish(shape, key, lookup, root))
 }
 
+/// The ways to go that the state decides.
+pub(super) struct Arms {
+    /// Each way, with the levels that occur on it.
+    ways: Vec<(Guarded, Vec<LevelSet>)>,
+    /// The way of each state of the setting.
+    pub(super) of: Vec<u16>,
+}
+
+impl Arms {
+    pub(super) fn new(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Result<Self> {
+        let program = setting.program;
+        let claims = setting.claims()?;
+        let mut arms = Self { ways: Vec::new(), of: Vec::with_capacity(setting.states.len()) };
+        let mut index: HashMap<Guarded, u16> = HashMap::new();
+        let mut levels = vec![0; program.inputs.len()];
+        for state in &setting.states {
+            program.states.write(*state, &mut levels);
+            let rows = builder.rows_of_state(claims, *state, &levels);
+            let arm = match index.get(&rows) {
+                Some(arm) => *arm,
+                None => {
+                    let count = arms.ways.len();
+                    let arm = u16::try_from(count).map_err(|_| "it has more than 65535 ways to go".to_owned())?;
+                    index.insert(rows.clone(), arm);
+                    arms.ways.push((rows, vec![LevelSet(0); program.inputs.len()]));
+                    arm
+                }
+            };
+            for (input, _) in program.states.digits() {
+                arms.ways[usize::from(arm)].1[input.index()].0 |= LevelSet::one(levels[input.index()]).0;
+            }
+            arms.of.push(arm);
+        }
+        Ok(arms)
+    }
+
+    /// The steps of each way.
+    pub(super) fn steps(&self, builder: &mut Builder<'_>) -> Result<Vec<StepId>> {
+        let program = builder.program;
+        let mut steps = Vec::with_capacity(self.ways.len());
+        for (rows, hull) in &self.ways {
+            let mut known = Knowledge::none(program);
+            for (input, _) in program.states.digits() {
+                known.restrict(*input, hull[input.index()]);
+            }
+            steps.push(builder.rows(rows, &known)?);
+        }
+        Ok(steps)
+    }
+
+    /// The way of every state of the program.
+    fn of_state(&self, setting: &Setting<'_, '_>) -> Vec<Option<u16>> {
+        let mut of = vec![None; setting.program.states.count()];
+        setting.states.iter().zip(&self.of).for_each(|(state, arm)| of[*state] = Some(*arm));
+        of
+    }
+}
+
 impl<'p> Builder<'p> {
-    fn new(program: &'p Program) -> Self {
+    pub(super) fn new(program: &'p Program) -> Self {
         Self { program, pool: program.pool.clone(), steps: Vec::new(), index: HashMap::new(), depth: 0 }
     }
 
-    fn finish(self, shape: Shape, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
-        Plan { program: self.program, shape, pool: self.pool, key, lookup, steps: self.steps, root }
+    pub(super) fn finish(self, shape: Shape, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
+        Plan {
+            program: self.program,
+            shape,
+            assumed: false,
+            weighed: None,
+            certificate: None,
+            notes: Vec::new(),
+            pool: self.pool,
+            key,
+            lookup,
+            coefficients: Coefficients::default(),
+            symmetries: Vec::new(),
+            steps: self.steps,
+            root,
+        }
     }
 
-    fn push(&mut self, step: Step) -> Result<StepId> {
+    /// A step that was made.
+    pub(super) fn step(&self, id: StepId) -> &Step {
+        &self.steps[id.0 as usize]
+    }
+
+    pub(super) fn push(&mut self, step: Step) -> Result<StepId> {
         if let Some(id) = self.index.get(&step) {
             return Ok(*id);
         }
@@ -114,7 +168,7 @@ impl<'p> Builder<'p> {
         Ok(id)
     }
 
-    fn test(&mut self, condition: CondId, then: StepId, other: StepId) -> Result<StepId> {
+    pub(super) fn test(&mut self, condition: CondId, then: StepId, other: StepId) -> Result<StepId> {
         match self.pool.truth(condition) {
             Some(true) => Ok(then),
             Some(false) => Ok(other),
@@ -124,28 +178,23 @@ impl<'p> Builder<'p> {
     }
 
     /// The rows that can be taken in a state, with what is left of their guards.
-    fn rows_of_state(&mut self, levels: &[u8]) -> Guarded {
+    pub(super) fn rows_of_state(&mut self, claims: &Claims, state: usize, levels: &[u8]) -> Guarded {
         let program = self.program;
         let mut rows = Vec::new();
         let mut known = None;
-        for (index, row) in program.rows.iter().enumerate() {
-            match decide(program, row.guard, levels) {
-                Some(false) => {}
-                Some(true) => {
-                    rows.push((index, self.pool.always(true)));
-                    break;
-                }
-                None => {
-                    let known = known.get_or_insert_with(|| {
-                        let mut known = Knowledge::none(program);
-                        for (input, _) in program.states.digits() {
-                            known.restrict(*input, LevelSet::one(levels[input.index()]));
-                        }
-                        known
-                    });
-                    rows.push((index, known.cond(&mut self.pool, row.guard)));
-                }
+        for claim in claims.of(state) {
+            if claim.always {
+                rows.push((claim.row, self.pool.always(true)));
+                break;
             }
+            let known = known.get_or_insert_with(|| {
+                let mut known = Knowledge::none(program);
+                for (input, _) in program.states.digits() {
+                    known.restrict(*input, LevelSet::one(levels[input.index()]));
+                }
+                known
+            });
+            rows.push((claim.row, known.cond(&mut self.pool, program.rows[claim.row].guard)));
         }
         rows
     }
@@ -155,7 +204,7 @@ impl<'p> Builder<'p> {
     }
 
     /// A chain of rows, then the default.
-    fn rows(&mut self, rows: &[(usize, CondId)], known: &Knowledge) -> Result<StepId> {
+    pub(super) fn rows(&mut self, rows: &[(usize, CondId)], known: &Knowledge) -> Result<StepId> {
         self.descend(|me| {
             // Guards that need nothing fetched are tested as they stand, and the
             // chain is built from its end, so that its length costs no stack.
@@ -319,34 +368,4 @@ impl<'p> Builder<'p> {
         let next = self.branch(condition, &known.with_fetched(InputSet::one(input)), yes, no)?;
         self.push(Step::Fetch { input, next })
     }
-}
-
-/// Whether a condition holds in a state; `None` if that depends on other inputs.
-fn decide(program: &Program, condition: CondId, levels: &[u8]) -> Option<bool> {
-    match program.pool.cond(condition) {
-        Cond::Const(value) => Some(*value),
-        Cond::Level(input, _) if program.fetched.contains(*input) => None,
-        Cond::Level(input, set) => Some(set.contains(levels[input.index()])),
-        Cond::Compare(..) => None,
-        Cond::Not(a) => decide(program, *a, levels).map(|value| !value),
-        Cond::And(parts) => junction(program, parts, levels, false),
-        Cond::Or(parts) => junction(program, parts, levels, true),
-        Cond::If(c, a, b) => match decide(program, *c, levels) {
-            Some(true) => decide(program, *a, levels),
-            Some(false) => decide(program, *b, levels),
-            None => None,
-        },
-    }
-}
-
-fn junction(program: &Program, parts: &[CondId], levels: &[u8], deciding: bool) -> Option<bool> {
-    let mut all_known = true;
-    for part in parts {
-        match decide(program, *part, levels) {
-            Some(value) if value == deciding => return Some(deciding),
-            Some(_) => {}
-            None => all_known = false,
-        }
-    }
-    all_known.then_some(!deciding)
 }

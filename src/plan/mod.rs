@@ -6,10 +6,22 @@
 //! the graph and is part of what [`prove`](prove::prove) proves.
 
 mod build;
+mod chain;
+mod coefficients;
 mod key;
 mod knowledge;
+mod orbit;
+mod order;
 pub mod prove;
+mod prove_real;
+mod reachable;
 mod rounding;
+mod route;
+mod setting;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod turn;
 mod weights;
 
 use std::fmt;
@@ -17,17 +29,33 @@ use std::fmt;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
+pub use coefficients::{Coefficients, Fit, Form, Piece};
 pub use key::KeyLayout;
-pub use prove::{Counterexample, Proof};
+pub use order::Certificate;
+pub use prove::{Counterexample, Proof, Refusal};
+pub use reachable::reachable;
+pub(crate) use turn::{Turn, renamed};
 pub use weights::Weights;
+
+use setting::Setting;
 
 /// The code shapes that can be asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Shape {
-    /// An ordered chain of guards, as written.
+    /// The chain of guards, as written.
     Ladder,
+    /// The chain of guards in the best order that keeps the meaning.
+    Ordered,
+    /// A few tests that decide many guards, then chains in the best order: the published advice.
+    Nested,
+    /// A graph of tests on inputs with the least expected number of them.
+    Tree,
     /// The packed key selects the case through a lookup, then a `switch`.
     Switch(LookupPlace),
+    /// The key selects coefficients of a minimum or maximum of sums: no branch.
+    Coefficients,
+    /// Symmetries turn the inputs into those of few cases, whose result is turned back.
+    Orbit,
 }
 
 /// Where a `switch` finds the case of a key.
@@ -41,16 +69,40 @@ pub enum LookupPlace {
 
 impl Shape {
     /// Every shape, in the order of reports.
-    pub const ALL: [Shape; 3] =
-        [Shape::Ladder, Shape::Switch(LookupPlace::Constants), Shape::Switch(LookupPlace::Buffer)];
+    pub const ALL: [Shape; 8] = [
+        Shape::Ladder,
+        Shape::Ordered,
+        Shape::Nested,
+        Shape::Tree,
+        Shape::Switch(LookupPlace::Constants),
+        Shape::Switch(LookupPlace::Buffer),
+        Shape::Coefficients,
+        Shape::Orbit,
+    ];
 
     /// The name on the command line and in file names.
     pub fn name(self) -> &'static str {
         match self {
             Shape::Ladder => "ladder",
+            Shape::Ordered => "ordered",
+            Shape::Nested => "nested",
+            Shape::Tree => "tree",
             Shape::Switch(LookupPlace::Constants) => "switch",
             Shape::Switch(LookupPlace::Buffer) => "switch_buffer",
+            Shape::Coefficients => "coefficients",
+            Shape::Orbit => "orbit",
         }
+    }
+
+    /// Whether its code reads a buffer of the host, which holds the lookup.
+    pub fn reads_buffer(self) -> bool {
+        matches!(self, Shape::Switch(LookupPlace::Buffer) | Shape::Coefficients | Shape::Orbit)
+    }
+
+    /// Whether the case it reports is the one that the table takes. A plan
+    /// that turns inputs reports the case that it evaluated.
+    pub fn reports_case(self) -> bool {
+        self != Shape::Orbit
     }
 
     /// The shape with a name.
@@ -111,8 +163,33 @@ pub enum Step {
         /// The ways.
         arms: Vec<StepId>,
     },
+    /// The result that coefficients give, or one of the other ways, as the lookup
+    /// says: the coefficients come first in its numbering; only at the root.
+    Coefficients {
+        /// The ways of states without coefficients.
+        rest: Vec<StepId>,
+    },
+    /// Turns the inputs by symmetries, goes one of the ways, turns the result back.
+    /// The lowest bits of the lookup say by which symmetries, the others which way;
+    /// only at the root.
+    Orbit {
+        /// The ways.
+        arms: Vec<StepId>,
+    },
     /// The result.
     Leaf(Leaf),
+}
+
+impl Step {
+    /// The steps that may come next.
+    pub fn next(&self) -> Vec<StepId> {
+        match self {
+            Step::Test { then, other, .. } => vec![*then, *other],
+            Step::Fetch { next, .. } => vec![*next],
+            Step::Switch { arms } | Step::Coefficients { rest: arms } | Step::Orbit { arms } => arms.clone(),
+            Step::Leaf(_) => Vec::new(),
+        }
+    }
 }
 
 /// A result.
@@ -133,12 +210,25 @@ pub struct Plan<'p> {
     pub program: &'p Program,
     /// Which shape it has.
     pub shape: Shape,
+    /// Whether it may do anything where the assumptions do not hold.
+    pub assumed: bool,
+    /// Where the weights come from that it was made for.
+    pub weighed: Option<String>,
+    /// How good it is of its kind, where that is known.
+    pub certificate: Option<Certificate>,
     /// The program's terms and those that planning made of them.
     pub pool: Pool,
     /// How the discrete inputs are packed into a key.
     pub key: KeyLayout,
-    /// For [`Step::Switch`]: the arm of every state, by [`StateSpace`](crate::program::StateSpace) number.
+    /// What the lookup says of every state, by [`StateSpace`](crate::program::StateSpace) number; empty if there is none.
     pub lookup: Vec<u16>,
+    /// For [`Step::Coefficients`].
+    pub coefficients: Coefficients,
+    /// For [`Step::Orbit`]: the symmetries that inputs are turned by, one after
+    /// the other, as indices into [`Program::symmetries`].
+    pub symmetries: Vec<usize>,
+    /// Facts that are worth knowing, for headers and summaries.
+    pub notes: Vec<String>,
     steps: Vec<Step>,
     root: StepId,
 }
@@ -151,14 +241,23 @@ impl<'p> Plan<'p> {
     pub fn new<'w>(program: &'p Program, options: impl Into<PlanOptions<'w>>) -> Result<Self, Failure> {
         let options = options.into();
         let shape = options.shape;
-        let built = match shape {
-            Shape::Switch(_) if program.function.is_some() && program.states.count() == 1 => {
-                Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
-            }
-            Shape::Ladder => build::ladder(program),
-            Shape::Switch(_) => build::switch(program, shape),
-        };
-        built.map_err(|reason| {
+        let made = Setting::new(program, &options).and_then(|setting| {
+            let plan = match shape {
+                Shape::Ordered => chain::ordered(&setting),
+                Shape::Nested => chain::nested(&setting),
+                Shape::Tree => tree::tree(&setting),
+                Shape::Ladder => build::ladder(program),
+                _ if program.function.is_some() && program.states.count() == 1 => {
+                    Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
+                }
+                Shape::Switch(_) => build::switch(&setting, shape),
+                Shape::Coefficients => coefficients::plan(&setting),
+                Shape::Orbit => orbit::plan(&setting),
+            };
+            let weighed = setting.weights.map(|weights| weights.origin().to_owned());
+            plan.map(|plan| Plan { assumed: options.assume, weighed, ..plan })
+        });
+        made.map_err(|reason| {
             let message = format!("the plan `{shape}` does not suit the table `{}`", program.name);
             Failure::new(program.source.clone(), Diagnostic::error(codes::NOT_APPLICABLE, message).help(reason))
         })
@@ -176,11 +275,12 @@ impl<'p> Plan<'p> {
     /// Proves the plan.
     ///
     /// # Errors
-    /// With a counterexample if the plan is not equal to its program.
+    /// With a counterexample if the plan is not equal to its program, and when
+    /// it has too many paths.
     pub fn prove(self) -> Result<Proved<'p>, Failure> {
         match prove::prove(&self) {
             Ok(proof) => Ok(Proved { plan: self, proof }),
-            Err(counterexample) => Err(counterexample.into_failure(self.program)),
+            Err(refusal) => Err(refusal.into_failure(self.program)),
         }
     }
 
@@ -193,6 +293,38 @@ impl<'p> Plan<'p> {
     pub fn root(&self) -> StepId {
         self.root
     }
+
+    /// The input that a step fetches.
+    pub fn fetch_of(&self, step: StepId) -> Option<InputId> {
+        match self.step(step) {
+            Step::Fetch { input, .. } => Some(*input),
+            _ => None,
+        }
+    }
+
+    /// The steps that evaluation can come to, each after all that follow it.
+    pub fn reachable(&self) -> Vec<StepId> {
+        let mut order = Vec::new();
+        let mut seen = vec![false; self.steps.len()];
+        // Beside each step, whether what follows it was put on the stack already.
+        let mut open = vec![(self.root, false)];
+        while let Some((at, done)) = open.pop() {
+            if done {
+                order.push(at);
+            } else if !std::mem::replace(&mut seen[at.0 as usize], true) {
+                open.push((at, true));
+                open.extend(self.step(at).next().into_iter().map(|next| (next, false)));
+            }
+        }
+        order
+    }
+}
+
+/// Whether a plan was not made, or not proved, because it does not suit its
+/// table: another one may.
+pub fn is_unsuitable(failure: &Failure) -> bool {
+    let code = failure.diagnostics.first().map(|diagnostic| diagnostic.code);
+    code == Some(codes::NOT_APPLICABLE) || code == Some(codes::PROOF_TOO_LONG)
 }
 
 /// A plan that was proved equal to its program.

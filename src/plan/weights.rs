@@ -40,6 +40,11 @@ impl Weights {
         self.of_state[state]
     }
 
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.of_state.len()
+    }
+
     /// Where they come from.
     pub fn origin(&self) -> &str {
         &self.origin

@@ -109,6 +109,6 @@ mod tests {
         assert_eq!(scene.cases, [(Some(1), 4)].into());
         let tiles = scene.tiles.expect("a frame has tiles");
         assert_eq!(tiles.sets, [(vec![3], 1), (vec![3, 7], 1)].into());
-        assert_eq!(tiles.others, 0);
+        assert_eq!((tiles.others, tiles.mean_states()), (0, 1.5));
     }
 }

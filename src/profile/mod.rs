@@ -178,6 +178,15 @@ impl Profile {
     }
 }
 
+impl Tiles {
+    /// How many different states a tile has on average: 1 where neighbours agree, more where they diverge.
+    pub fn mean_states(&self) -> f64 {
+        let tiles: f64 = self.sets.values().map(|count| *count as f64).sum();
+        let states: f64 = self.sets.iter().map(|(set, count)| set.len() as f64 * *count as f64).sum();
+        if tiles > 0.0 { states / tiles } else { 0.0 }
+    }
+}
+
 impl Scene {
     /// Evaluations.
     pub fn total(&self) -> u64 {

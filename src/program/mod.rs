@@ -14,6 +14,7 @@
 //!
 //! Assumptions and symmetries are carried along but never change the meaning.
 
+pub(crate) mod claims;
 mod domain;
 pub mod draw;
 mod lower;

@@ -41,7 +41,7 @@ pub(crate) struct Affine {
 }
 
 /// A minimum of maxima; both lists are sorted and not empty.
-type Lattice = Vec<Vec<Affine>>;
+pub(crate) type Lattice = Vec<Vec<Affine>>;
 
 /// Makes normal forms. Selections must have been resolved before.
 #[derive(Debug, Default)]
@@ -62,6 +62,11 @@ impl Normaliser {
         result
     }
 
+    /// What a normal form is.
+    pub(crate) fn lattice_of(&self, id: NormalId) -> &Lattice {
+        &self.forms[id.0 as usize]
+    }
+
     /// The expression as one affine form, if it is one.
     pub(crate) fn affine(&mut self, pool: &Pool, expr: ExprId) -> Option<Affine> {
         let id = self.normal(pool, expr)?;
@@ -72,6 +77,12 @@ impl Normaliser {
             },
             _ => None,
         }
+    }
+
+    /// The expression as a minimum of maxima of affine forms.
+    pub(crate) fn forms(&mut self, pool: &Pool, expr: ExprId) -> Option<&[Vec<Affine>]> {
+        let id = self.normal(pool, expr)?;
+        Some(&self.forms[id.0 as usize])
     }
 
     fn intern(&mut self, form: Lattice) -> NormalId {

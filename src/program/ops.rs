@@ -81,7 +81,7 @@ fn is_nan<T: PartialOrd>(a: &T) -> bool {
 /// The argument is reduced by multiples of a quarter turn, which is subtracted
 /// in three parts, the first two so short that their products are exact.
 fn portable_sincos(x: f32) -> (f32, f32) {
-    let quarters = (x * 0.636_619_77).round_ties_even();
+    let quarters = (x * std::f32::consts::FRAC_2_PI).round_ties_even();
     let r = ((x - quarters * 1.570_312_5) - quarters * 4.837_513e-4) - quarters * 7.549_79e-8;
     let z = r * r;
     let sin = r + r * z * (-0.166_666_55 + z * (0.008_332_161 - z * 1.951_529_6e-4));

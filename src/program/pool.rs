@@ -342,6 +342,17 @@ impl Pool {
         self.conds[id.0 as usize].1
     }
 
+    /// Whether a condition compares numbers.
+    pub fn compares(&self, id: CondId) -> bool {
+        match self.cond(id) {
+            Cond::Const(_) | Cond::Level(..) => false,
+            Cond::Compare(..) => true,
+            Cond::Not(a) => self.compares(*a),
+            Cond::And(parts) | Cond::Or(parts) => parts.iter().any(|part| self.compares(*part)),
+            Cond::If(c, a, b) => [c, a, b].into_iter().any(|part| self.compares(*part)),
+        }
+    }
+
     /// The name a table gives to an expression, if any.
     pub fn label(&self, id: ExprId) -> Option<&str> {
         self.labels.get(&id).map(String::as_str)

@@ -6,10 +6,12 @@
 //! inputs, a square root) is a variable of its own that could be anything: an
 //! answer "cannot hold" is always right, "can hold" is then not certain.
 
-use num_traits::{CheckedMul, Signed, Zero};
+use std::collections::BTreeMap;
+
+use num_traits::{CheckedAdd, CheckedMul, Signed, Zero};
 
 use crate::program::normal::{Affine, Rational, Term, rational};
-use crate::program::{Domain, Program};
+use crate::program::{Domain, InputId, Program};
 
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
 const MAX_CONSTRAINTS: usize = 512;
@@ -52,11 +54,66 @@ struct Constraint {
 
 /// Whether the forms can have these signs at one point of the program's domain.
 pub(crate) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> bool {
-    feasible(program, signs).unwrap_or(true)
+    feasible(program, signs, &mut Vec::new()).unwrap_or(true)
 }
 
+/// A point of the program's domain at which the forms have these signs, by
+/// input; inputs that no form mentions are left out. `None` if there is none or
+/// none was found, and if the forms are not linear in the inputs.
+pub(crate) fn point<'a>(
+    program: &Program,
+    signs: impl Iterator<Item = (&'a Affine, Sign)>,
+) -> Option<BTreeMap<InputId, Rational>> {
+    let mut steps = Vec::new();
+    if feasible(program, signs, &mut steps) != Some(true) {
+        return None;
+    }
+    let mut point: BTreeMap<Term, Rational> = BTreeMap::new();
+    while let Some((variable, bounds)) = steps.pop() {
+        let (mut lo, mut hi): (Option<Rational>, Option<Rational>) = (None, None);
+        for bound in &bounds {
+            let factor = *bound.form.terms.get(&variable)?;
+            let mut rest = bound.form.constant;
+            for (term, factor) in bound.form.terms.iter().filter(|(term, _)| **term != variable) {
+                rest = rest.checked_add(&point.get(term)?.checked_mul(factor)?)?;
+            }
+            let limit = (-rest).checked_mul(&factor.recip())?;
+            if factor.is_positive() {
+                lo = Some(lo.map_or(limit, |lo| lo.max(limit)));
+            } else {
+                hi = Some(hi.map_or(limit, |hi| hi.min(limit)));
+            }
+        }
+        let salt = if let Term::Input(input) = &variable { input.index() } else { 0 };
+        let value = between(lo?, hi?, salt)?;
+        point.insert(variable, value);
+    }
+    point
+        .into_iter()
+        .map(|(term, value)| if let Term::Input(input) = term { Some((input, value)) } else { None })
+        .collect()
+}
+
+/// A number between two others that is short in binary and, for a different
+/// `salt`, at a different place: points that mean nothing in particular.
+pub(crate) fn between(lo: Rational, hi: Rational, salt: usize) -> Option<Rational> {
+    // No sum, difference or complement of two of these is another one.
+    let places = [41, 89, 55, 71, 37, 83];
+    let step = (hi - lo).checked_mul(&Rational::new(places[salt % places.len()], 128))?;
+    let inside = lo.checked_add(&step)?;
+    let rounded = (inside.checked_mul(&Rational::from_integer(1024))?.round()).checked_mul(&Rational::new(1, 1024))?;
+    Some(if lo < rounded && rounded < hi { rounded } else { inside })
+}
+
+/// A variable that was eliminated, with what bounds it.
+type Step = (Term, Vec<Constraint>);
+
 /// The same; `None` if numbers or their count grow too large.
-fn feasible<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> Option<bool> {
+fn feasible<'a>(
+    program: &Program,
+    signs: impl Iterator<Item = (&'a Affine, Sign)>,
+    steps: &mut Vec<Step>,
+) -> Option<bool> {
     let minus = Rational::from_integer(-1);
     let mut constraints = Vec::new();
     for (form, sign) in signs {
@@ -103,6 +160,8 @@ fn feasible<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign
             return None;
         }
         constraints = kept;
+        above.append(&mut below);
+        steps.push((variable.clone(), above));
     }
     Some(!constraints.iter().any(Constraint::violated))
 }

@@ -16,11 +16,11 @@ use std::ops::ControlFlow;
 use num_traits::Signed;
 
 use super::region::{self, Sign};
-use crate::program::normal::{Affine, Normaliser, Term};
+use crate::program::normal::{Affine, Normaliser};
 use crate::program::print::Printer;
 use crate::program::{
-    BinaryOp, Comparison, Cond, CondId, ExprId, InputId, LevelSet, LevelTerm, Node, Pool, Program, Symmetry, TernaryOp,
-    UnaryOp, Value,
+    BinaryOp, Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, LevelTerm, Node, Pool, Program, Symmetry,
+    TernaryOp, UnaryOp, Value,
 };
 
 /// Most paths of one state that are looked at. Published tables have a few dozen.
@@ -63,9 +63,13 @@ struct Choice {
 /// Runs a program along paths.
 pub(crate) struct Machine<'p> {
     program: &'p Program,
+    /// Where conditions are looked up.
+    conditions: &'p Pool,
     pool: Pool,
     normaliser: Normaliser,
     levels: Vec<u8>,
+    /// Fetched inputs that were looked at.
+    looked_at: InputSet,
     choices: Vec<Choice>,
     /// The forms asked for, and their numbers. Multiples of a form share one.
     forms: Vec<Affine>,
@@ -89,9 +93,16 @@ enum Difference {
 
 impl<'p> Machine<'p> {
     pub(crate) fn new(program: &'p Program) -> Self {
+        Self::over(program, &program.pool)
+    }
+
+    /// A machine for terms of another pool, which has all those of the program.
+    pub(crate) fn over(program: &'p Program, pool: &'p Pool) -> Self {
         Self {
             program,
-            pool: program.pool.clone(),
+            conditions: pool,
+            pool: pool.clone(),
+            looked_at: InputSet::default(),
             normaliser: Normaliser::default(),
             levels: vec![0; program.inputs.len()],
             choices: Vec::new(),
@@ -119,6 +130,16 @@ impl<'p> Machine<'p> {
         }
         self.gave_up = true;
         false
+    }
+
+    /// The fetched inputs that were looked at since the last call.
+    pub(crate) fn take_looked_at(&mut self) -> InputSet {
+        std::mem::take(&mut self.looked_at)
+    }
+
+    /// Terms, those that were made on the way included.
+    pub(crate) fn pool(&mut self) -> &mut Pool {
+        &mut self.pool
     }
 
     /// Whether the last state had more paths than were followed.
@@ -156,6 +177,7 @@ impl<'p> Machine<'p> {
         }
         match self.program.levels(input) {
             Some(levels) if self.program.fetched.contains(input) => {
+                self.looked_at = self.looked_at.or(InputSet::one(input));
                 self.answer(Question::Level(input), LevelSet::all(levels.count()), None)
             }
             _ => self.levels[input.index()],
@@ -177,9 +199,9 @@ impl<'p> Machine<'p> {
 
     /// Whether a condition holds on this path.
     pub(crate) fn holds(&mut self, condition: CondId, view: View<'_>) -> bool {
-        // Resolving makes expressions but no conditions, so the program has them all.
-        let program = self.program;
-        match program.pool.cond(condition) {
+        // Resolving makes expressions but no conditions, so these are all.
+        let conditions = self.conditions;
+        match conditions.cond(condition) {
             Cond::Const(value) => *value,
             Cond::Level(input, levels) => levels.contains(self.level(*input, view)),
             Cond::Compare(op, a, b) => {
@@ -277,7 +299,9 @@ impl<'p> Machine<'p> {
 
     /// An expression with selections decided and images put in.
     pub(crate) fn resolve(&mut self, expr: ExprId, view: View<'_>) -> ExprId {
-        if view.symmetry.is_none() && view.result.is_none() && !self.pool.expr_facts(expr).selects {
+        let facts = self.pool.expr_facts(expr);
+        if view.symmetry.is_none() && view.result.is_none() && !facts.selects {
+            self.looked_at = self.looked_at.or(facts.inputs.and(self.program.fetched));
             return expr;
         }
         self.resolve_memo(expr, view, &mut HashMap::new())
@@ -294,7 +318,10 @@ impl<'p> Machine<'p> {
                 let image = view.symmetry.and_then(|s| s.numbers.iter().find(|(mapped, _)| *mapped == input));
                 match image {
                     Some((_, image)) => self.resolve(*image, View::PLAIN),
-                    None => expr,
+                    None => {
+                        self.looked_at = self.looked_at.or(InputSet::one(input).and(self.program.fetched));
+                        expr
+                    }
                 }
             }
             Node::Unary(op, a) => {
@@ -394,12 +421,6 @@ impl<'p> Machine<'p> {
         self.sign(a, b) == Some(Sign::Zero)
     }
 
-    /// Whether the guards of two rows hold on this path.
-    pub(crate) fn both_hold(&mut self, first: usize, second: usize) -> bool {
-        let rows = &self.program.rows;
-        self.holds(rows[first].guard, View::PLAIN) && self.holds(rows[second].guard, View::PLAIN)
-    }
-
     /// The value of a row on this path, its guard aside: the first line that applies, else the default.
     pub(crate) fn row_values(&mut self, row: usize, view: View<'_>) -> Vec<ExprId> {
         let program = self.program;
@@ -415,6 +436,16 @@ impl<'p> Machine<'p> {
             Some(row) => (Some(row), self.row_values(row, view)),
             None => (None, program.default.iter().map(|value| self.resolve(*value, view)).collect()),
         }
+    }
+
+    /// The row taken, its line, and the result on this path.
+    pub(crate) fn run_to_line(&mut self) -> (Option<usize>, Option<usize>, Vec<ExprId>) {
+        let program = self.program;
+        let row = program.rows.iter().position(|row| self.holds(row.guard, View::PLAIN));
+        let lines = row.map_or(&[][..], |row| &program.rows[row].lines);
+        let line = lines.iter().position(|line| self.holds(line.condition, View::PLAIN));
+        let values = line.map_or(&program.default, |line| &lines[line].values);
+        (row, line, values.iter().map(|value| self.resolve(*value, View::PLAIN)).collect())
     }
 
     /// The path in table notation: the state, then what was asked.
@@ -449,14 +480,5 @@ impl<'p> Machine<'p> {
             (Question::Sign(_), None) => String::new(),
         });
         state.chain(asked).collect::<Vec<_>>().join(", ")
-    }
-
-    /// Whether the path is sure to be taken by some inputs: everything asked was linear in them.
-    pub(crate) fn certain(&self) -> bool {
-        self.choices.iter().all(|choice| match choice.question {
-            Question::Level(_) => true,
-            Question::Sign(form) => self.forms[form].terms.keys().all(|term| matches!(term, Term::Input(_))),
-            Question::Compare(..) => false,
-        })
     }
 }

@@ -73,8 +73,11 @@ fn square(program: &Program, claim: Claimed, x: usize, y: usize) -> Markup {
     }
 }
 
+/// Discrete inputs, with their number of levels.
+type Digits = Vec<(InputId, usize)>;
+
 /// The inputs of a state, in two parts of about as many combinations.
-fn split(program: &Program) -> (Vec<(InputId, usize)>, Vec<(InputId, usize)>) {
+fn split(program: &Program) -> (Digits, Digits) {
     let digits = program.states.digits();
     let mut product = 1;
     let mut at = 0;
@@ -104,4 +107,26 @@ fn labels(program: &Program, digits: &[(InputId, usize)]) -> Vec<String> {
         labels = longer.map(|(label, number)| format!("{label} {}", word(number)).trim_start().to_owned()).collect();
     }
     labels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_state_has_its_square() {
+        let program = Program::read("tables/rsmss.ron").unwrap_or_else(|e| panic!("{e}"));
+        let (down, across) = split(&program);
+        assert_eq!((labels(&program, &down).len(), labels(&program, &across).len()), (32, 36));
+        assert_eq!(labels(&program, &down)[1], "none none exiting");
+        let text = matrix(&program).into_string();
+        let squares = text.matches("<a href=\"#row-").count() + text.matches("<circle").count();
+        assert_eq!(squares, 1152);
+        let svg = &text[text.find("<svg").unwrap_or(0)..text.find("</figure>").unwrap_or(0)];
+        let drawn = crate::picture::raster(svg, 1.5).and_then(|picture| crate::picture::png(&picture));
+        let drawn = drawn.unwrap_or_else(|e| panic!("{e}"));
+        if let Some(folder) = std::env::var_os("UMBRAGE_PICTURES") {
+            std::fs::write(std::path::PathBuf::from(folder).join("matrix.png"), drawn).expect("written");
+        }
+    }
 }

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "gpu")]
 use super::gpu;
+use super::passes::{Bias, Stage};
 use super::{Receivers, Settings, ShadowMap, Technique, Visibility, cpu};
 use crate::diag::Failure;
 #[cfg(feature = "gpu")]
@@ -20,6 +21,18 @@ pub enum Executor {
 }
 
 impl Executor {
+    /// What the light sees: by rays on the CPU, by a depth pass on a GPU. They differ at borders of triangles only.
+    ///
+    /// # Errors
+    /// When the map is beyond the device's limits, or the device fails.
+    pub fn shadow_map(&self, stage: &Stage<'_>, size: u32, bias: Bias) -> Result<ShadowMap, Failure> {
+        match self {
+            Executor::Cpu => Ok(stage.shadow_map(size, bias)),
+            #[cfg(feature = "gpu")]
+            Executor::Gpu(device) => gpu::Raster::new(device, stage)?.shadow_map(size, bias),
+        }
+    }
+
     /// The visibility of every pixel. `done` is told about every row that the CPU has finished.
     ///
     /// # Errors

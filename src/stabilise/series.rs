@@ -38,7 +38,7 @@ fn multiply(a: &Series, b: &Series) -> Option<Series> {
 
 /// The series of `name(rate x)`.
 fn function(name: &str, rate: Rational) -> Option<Series> {
-    let sign = |j: usize| Rational::from_integer(if j / 2 % 2 == 0 { 1 } else { -1 });
+    let sign = |j: usize| Rational::from_integer(if (j / 2).is_multiple_of(2) { 1 } else { -1 });
     let mut power = Rational::one();
     let mut factorial = Rational::one();
     let mut all = Vec::with_capacity(ORDER);

@@ -48,6 +48,40 @@ pub enum ExprKind {
     Record(Vec<(Spanned<String>, Expr)>),
 }
 
+impl Expr {
+    /// The expressions that this one is made of, in the order written.
+    pub fn parts(&self) -> Vec<&Expr> {
+        match &self.kind {
+            ExprKind::Number(_) | ExprKind::Name(_) => Vec::new(),
+            ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => vec![&**a],
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => vec![&**a, &**b],
+            ExprKind::If(a, b, c) | ExprKind::Between(a, _, b, c) => vec![&**a, &**b, &**c],
+            ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().collect(),
+            ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
+                set.iter().map(|(_, value)| value).collect()
+            }
+            ExprKind::Sum(_, SumOver::Items(_), term) => vec![&**term],
+            ExprKind::Sum(_, SumOver::Range(lo, hi), term) => vec![&**lo, &**hi, &**term],
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn parts_mut(&mut self) -> Vec<&mut Expr> {
+        match &mut self.kind {
+            ExprKind::Number(_) | ExprKind::Name(_) => Vec::new(),
+            ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => vec![&mut **a],
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => vec![&mut **a, &mut **b],
+            ExprKind::If(a, b, c) | ExprKind::Between(a, _, b, c) => vec![&mut **a, &mut **b, &mut **c],
+            ExprKind::Call(_, items) | ExprKind::List(items) => items.iter_mut().collect(),
+            ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
+                set.iter_mut().map(|(_, value)| value).collect()
+            }
+            ExprKind::Sum(_, SumOver::Items(_), term) => vec![&mut **term],
+            ExprKind::Sum(_, SumOver::Range(lo, hi), term) => vec![&mut **lo, &mut **hi, &mut **term],
+        }
+    }
+}
+
 /// What a sum runs over.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SumOver {

@@ -77,7 +77,7 @@ fn edges(plan: &Plan<'_>, id: StepId) -> Vec<(StepId, String)> {
     match plan.step(id) {
         Step::Test { then, other, .. } => vec![(*then, "yes".to_owned()), (*other, "no".to_owned())],
         Step::Fetch { next, .. } => vec![(*next, String::new())],
-        Step::Switch { arms } => {
+        Step::Switch { arms } | Step::Coefficients { rest: arms } | Step::Orbit { arms } => {
             let ways: BTreeSet<StepId> = arms.iter().copied().collect();
             ways.into_iter().map(|arm| (arm, String::new())).collect()
         }
@@ -93,6 +93,13 @@ fn node(plan: &Plan<'_>, id: StepId) -> (String, &'static str) {
         Step::Test { condition, .. } => (wrap(&printer.cond(*condition)), "#ffffffff"),
         Step::Fetch { input, .. } => (format!("fetch {}", program.inputs[input.index()].name), "#fff0b8ff"),
         Step::Switch { arms } => (format!("lookup by key:\n{} ways", arms.len()), "#ffffffff"),
+        Step::Coefficients { rest } => {
+            let sets = plan.coefficients.fits.len();
+            (format!("lookup by key:\n{sets} sets of coefficients,\n{} other ways", rest.len()), "#ffffffff")
+        }
+        Step::Orbit { arms } => {
+            (format!("lookup by key:\n{} symmetries,\n{} ways", plan.symmetries.len(), arms.len()), "#ffffffff")
+        }
         Step::Leaf(leaf) => {
             let case = leaf.row.map_or("default".to_owned(), |row| format!("case {}", program.rows[row].id));
             let values: Vec<String> = leaf.values.iter().map(|value| printer.expr(*value)).collect();

@@ -82,10 +82,7 @@ impl Candidate {
 
     /// The name in reports.
     pub fn name(self) -> String {
-        let shape = match (self.shape, self.weighted) {
-            (Shape::Ladder, true) => "ladder_ordered",
-            (shape, _) => shape.name(),
-        };
+        let shape = self.shape.name();
         if self.assume { format!("{shape}+assume") } else { shape.to_owned() }
     }
 
@@ -101,7 +98,9 @@ impl Candidate {
             if assume && !options.assume {
                 break;
             }
-            all.extend(options.shapes.iter().map(|shape| Self { shape: *shape, weighted: true, assume }));
+            // The ladder as written is there already, and no profile changes it.
+            let others = options.shapes.iter().filter(|shape| **shape != Shape::Ladder);
+            all.extend(others.map(|shape| Self { shape: *shape, weighted: true, assume }));
         }
         all
     }

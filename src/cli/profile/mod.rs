@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+#[cfg(feature = "render")]
+use super::frame::{parse_map, parse_size, parse_technique};
 use super::output::Sink;
 use super::report::Report;
 use super::{Outcome, Result, columns};
@@ -44,15 +46,15 @@ struct Count {
     scene: Vec<String>,
     /// The technique to render with: smsr, rsmss, rpcf
     #[cfg(feature = "render")]
-    #[arg(long, value_name = "TECHNIQUE", default_value = "rsmss", value_parser = scenes::parse_technique)]
+    #[arg(long, value_name = "TECHNIQUE", default_value = "rsmss", value_parser = parse_technique)]
     technique: crate::shadow::Technique,
     /// Size of the picture
     #[cfg(feature = "render")]
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "960x540", value_parser = scenes::parse_size)]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "960x540", value_parser = parse_size)]
     size: (u32, u32),
     /// Texels per side of the shadow map
     #[cfg(feature = "render")]
-    #[arg(long, value_name = "TEXELS", default_value = "1024", value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_name = "TEXELS", default_value = "1024", value_parser = parse_map)]
     shadow_map: u32,
     /// Longest run that is revectorised, in texels
     #[cfg(feature = "render")]

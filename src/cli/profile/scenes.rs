@@ -10,9 +10,6 @@ use crate::shadow::passes::{Bias, Stage};
 use crate::shadow::scene::Scene;
 use crate::shadow::{Settings, Technique};
 
-/// Largest side of a picture or a shadow map.
-const MAX_SIDE: u32 = 16384;
-
 /// Renders scenes and counts.
 pub(super) fn run(arguments: &Count) -> Result<(Program, Profile), Failure> {
     let technique = arguments.technique;
@@ -41,19 +38,4 @@ pub(super) fn run(arguments: &Count) -> Result<(Program, Profile), Failure> {
         profile.scenes.push(count(&program, &name, technique, frame)?);
     }
     Ok((program, profile))
-}
-
-/// Reads a size such as 960x540.
-pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=MAX_SIDE).contains(side));
-    let size = text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?)));
-    size.ok_or_else(|| format!("expected WIDTHxHEIGHT, for instance 960x540; a side has 1 to {MAX_SIDE} pixels"))
-}
-
-/// Reads the name of a technique.
-pub(super) fn parse_technique(name: &str) -> Result<Technique, String> {
-    Technique::from_name(name).ok_or_else(|| {
-        let known: Vec<&str> = Technique::ALL.into_iter().map(Technique::name).collect();
-        format!("there is no such technique; the techniques are: {}", known.join(", "))
-    })
 }

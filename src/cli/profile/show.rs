@@ -69,7 +69,10 @@ fn text(profile: &Profile, program: Option<&Program>) -> Result<()> {
         let (total, states) = (scene.total(), scene.states.len());
         let setting = if scene.setting.is_empty() { String::new() } else { format!(", {}", scene.setting) };
         let (name, technique) = (&scene.name, &scene.technique);
-        writeln!(out, "  {name:<12} {technique}{setting}{weight}: {total} evaluations in {states} states")?;
+        let tiles = scene.tiles.as_ref().map_or(String::new(), |tiles| {
+            format!(", {:.2} in a tile of {}x{} pixels", tiles.mean_states(), tiles.width, tiles.height)
+        });
+        writeln!(out, "  {name:<12} {technique}{setting}{weight}: {total} evaluations in {states} states{tiles}")?;
     }
     let largest = found.iter().map(|f| f.mean).fold(0.0, f64::max);
     writeln!(out, "\n     case    share     mean    +-")?;

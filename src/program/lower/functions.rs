@@ -89,10 +89,14 @@ impl<'t> Lowering<'t> {
             let plural = if count == 1 { "" } else { "s" };
             let message = format!("`{name}` takes {count} argument{plural}, not {}", arguments.len());
             let listed = parameters.iter().map(|p| p.value.as_str()).collect::<Vec<_>>().join(", ");
-            return Err(Diagnostic::error(codes::CALL, message).at(span, "wrong number of arguments").help(format!(
-                "`{name}({listed})`, or only some by name, as in `{name}({} = ...)`",
-                parameters[0].value
-            )));
+            return Err(Diagnostic::error(codes::CALL, message).at(span, "wrong number of arguments").help(
+                match parameters.first() {
+                    Some(first) => {
+                        format!("`{name}({listed})`, or only some by name, as in `{name}({} = ...)`", first.value)
+                    }
+                    None => format!("it is called as `{name}()`"),
+                },
+            ));
         }
         let terms = arguments.iter().map(|a| self.term(a, env, Expected::Anything)).collect::<Result<Vec<_>>>()?;
         let spans: Vec<Span> = arguments.iter().map(|a| a.span).collect();

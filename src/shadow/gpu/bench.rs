@@ -8,7 +8,7 @@
 
 use super::frame::GpuFrame;
 use super::shader::{Costs, Shader};
-use super::source::{Output, Skeleton};
+use super::source::{Output, Passes, Skeleton};
 use crate::diag::Failure;
 use crate::gpu::Gpu;
 use crate::gpu::timing::{Clock, Protocol, Stopwatch, Times, interleaved};
@@ -29,6 +29,23 @@ pub struct Subject<'a, 'p> {
     pub proved: Option<&'a Proved<'p>>,
     /// How it reads.
     pub skeleton: Skeleton,
+}
+
+/// The techniques with what they are compared with, given plans of both tables: the plain depth test, the
+/// authors' case-free shader, and the search of their shader of 2015 in front of the table `rsmss`.
+pub fn subjects<'a, 'p>(smsr: &'a Proved<'p>, rsmss: &'a Proved<'p>) -> Vec<Subject<'a, 'p>> {
+    let one_pass = Skeleton { passes: Passes::One, ..Skeleton::FAST };
+    [
+        ("hard", Technique::Hard, None, one_pass),
+        ("pcf", Technique::Pcf, None, one_pass),
+        ("smsr", Technique::Smsr, Some(smsr), Skeleton::FAST),
+        ("rsmss", Technique::Rsmss, Some(rsmss), Skeleton::FAST),
+        ("rsmss_one_pass", Technique::Rsmss, Some(rsmss), one_pass),
+        ("casefree", Technique::CaseFree, None, Skeleton::PUBLISHED),
+        ("rsmss_2015", Technique::Rsmss, Some(rsmss), Skeleton::PUBLISHED),
+    ]
+    .map(|(name, technique, proved, skeleton)| Subject { name, technique, proved, skeleton })
+    .to_vec()
 }
 
 /// What was measured of a subject.

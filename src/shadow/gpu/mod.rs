@@ -19,7 +19,7 @@ mod source;
 pub use frame::GpuFrame;
 pub use raster::{GpuPicture, Raster};
 pub use shader::{Bound, Costs, Shader};
-pub use source::{Output, Reads, Skeleton, source};
+pub use source::{Output, Passes, Reads, Skeleton, source};
 
 use crate::diag::Failure;
 use crate::gpu::Gpu;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use wgpu::util::DeviceExt;
 
 use super::frame::GpuFrame;
-use super::source::{Output, Skeleton, source};
+use super::source::{Output, Passes, Skeleton, passes, source};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::{lookup_words, wgsl_module};
 use crate::gpu::Gpu;
@@ -17,6 +17,10 @@ use crate::shadow::{Settings, Technique, Visibility};
 
 /// Threads of a workgroup along each side.
 const TILE: u32 = 8;
+/// What the work of a second dispatch starts from: no workgroups along x, one along y and z, no pixels.
+const WORK: [u8; 16] = [0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0];
+/// Where a glance marks pixels.
+const MARKS: wgpu::TextureFormat = wgpu::TextureFormat::Depth16Unorm;
 
 /// A technique on a device, for one kind of output.
 #[derive(Debug)]
@@ -33,7 +37,11 @@ pub struct Shader<'g> {
 #[derive(Debug)]
 enum Pipeline {
     Compute(wgpu::ComputePipeline),
+    /// The glance, and the pixels that it queued.
+    Queue(wgpu::ComputePipeline, wgpu::ComputePipeline),
     Render(wgpu::RenderPipeline),
+    /// The glance, and the pixels that it marked.
+    Marked(wgpu::RenderPipeline, wgpu::RenderPipeline),
 }
 
 /// The keys of a plan, and the numbers of their states.
@@ -71,9 +79,11 @@ pub struct Bound<'s, 'g> {
     frame: wgpu::BindGroup,
     output: wgpu::BindGroup,
     pixels: [u32; 2],
-    /// One for each binding of the output, with its size in bytes.
+    /// One for each binding of the output, with its size in bytes, and the size of a second dispatch.
     buffers: Vec<(wgpu::Buffer, u64)>,
     target: Option<wgpu::Texture>,
+    /// Where a glance marks pixels.
+    marks: Option<wgpu::TextureView>,
 }
 
 impl<'g> Shader<'g> {
@@ -102,8 +112,10 @@ impl<'g> Shader<'g> {
             Output::Compute | Output::Record | Output::Count => wgpu::ShaderStages::COMPUTE,
         };
         let frame_layout = frame_layout(gpu, stage);
+        let two = passes(technique, skeleton) != Passes::One;
         let outputs = match output {
             Output::Fragment => 0,
+            Output::Compute if two => 3,
             Output::Compute | Output::Count => 1,
             Output::Record => 2,
         };
@@ -117,18 +129,26 @@ impl<'g> Shader<'g> {
         });
         let constants = [("COUNT", f64::from(u8::from(output == Output::Record)))];
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let compute = |entry| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label,
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(entry),
+                compilation_options: options.clone(),
+                cache: None,
+            })
+        };
+        let cover = |entry, compare| cover(gpu, &layout, &module, &options, entry, compare);
         let pipeline = match output {
-            Output::Fragment => Pipeline::Render(cover(gpu, &layout, &module, options)),
-            Output::Compute | Output::Record | Output::Count => {
-                Pipeline::Compute(gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                    label,
-                    layout: Some(&layout),
-                    module: &module,
-                    entry_point: Some("visibility_pass"),
-                    compilation_options: options,
-                    cache: None,
-                }))
-            }
+            Output::Fragment if two => Pipeline::Marked(
+                cover("glance_pass", Some(wgpu::CompareFunction::Always)),
+                // The mark is 1 and what covers lies at 0.5.
+                cover("visibility_pass", Some(wgpu::CompareFunction::Less)),
+            ),
+            Output::Fragment => Pipeline::Render(cover("visibility_pass", None)),
+            Output::Compute if two => Pipeline::Queue(compute("glance_pass"), compute("queue_pass")),
+            Output::Compute | Output::Record | Output::Count => Pipeline::Compute(compute("visibility_pass")),
         };
         let mut words = proved.map_or_else(Vec::new, |proved| lookup_words(proved.plan()));
         words.resize(words.len().max(1), 0);
@@ -186,14 +206,15 @@ impl<'g> Shader<'g> {
         let pixels = frame.pixel_count() as u64;
         let sizes = match self.output {
             Output::Fragment => vec![],
+            Output::Compute if matches!(self.pipeline, Pipeline::Queue(..)) => vec![4 * pixels, 16, 4 * pixels],
             Output::Compute => vec![4 * pixels],
             Output::Record => vec![4 * pixels, 16 * pixels],
             Output::Count => vec![4 << self.keys.bits],
         };
-        let buffers: Vec<(wgpu::Buffer, u64)> = sizes
+        let mut buffers: Vec<(wgpu::Buffer, u64)> = sizes
             .into_iter()
             .map(|size| {
-                let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+                let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST;
                 let descriptor =
                     wgpu::BufferDescriptor { label: Some("output"), size, usage, mapped_at_creation: false };
                 (gpu.device.create_buffer(&descriptor), size)
@@ -208,20 +229,38 @@ impl<'g> Shader<'g> {
             layout: &self.output_layout,
             entries: &entries,
         });
-        let target = (self.output == Output::Fragment).then(|| {
+        if let Pipeline::Queue(..) = self.pipeline {
+            let size = WORK.len() as u64;
+            let usage = wgpu::BufferUsages::INDIRECT | wgpu::BufferUsages::COPY_DST;
+            let descriptor = wgpu::BufferDescriptor { label: Some("groups"), size, usage, mapped_at_creation: false };
+            buffers.push((gpu.device.create_buffer(&descriptor), size));
+        }
+        let texture = |format, usage| {
             gpu.device.create_texture(&wgpu::TextureDescriptor {
                 label: Some("visibility"),
                 size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::R32Float,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+                format,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
                 view_formats: &[],
             })
-        });
+        };
+        let target = (self.output == Output::Fragment)
+            .then(|| texture(wgpu::TextureFormat::R32Float, wgpu::TextureUsages::COPY_SRC));
+        let marks = matches!(self.pipeline, Pipeline::Marked(..))
+            .then(|| texture(MARKS, wgpu::TextureUsages::empty()).create_view(&wgpu::TextureViewDescriptor::default()));
         gpu.check()?;
-        Ok(Bound { shader: self, frame: frame_group, output: output_group, pixels: frame.pixels, buffers, target })
+        Ok(Bound {
+            shader: self,
+            frame: frame_group,
+            output: output_group,
+            pixels: frame.pixels,
+            buffers,
+            target,
+            marks,
+        })
     }
 
     /// Runs a shader made for [`Output::Record`].
@@ -233,8 +272,8 @@ impl<'g> Shader<'g> {
         bound.submit();
         let mut visibility = Visibility::new(frame.pixel_count());
         let mut costs = Costs::default();
-        visibility.value = bound.read(0, |bytes| bytemuck::pod_collect_to_vec::<u8, f32>(bytes))?;
-        let records = bound.read(1, |bytes| bytemuck::pod_collect_to_vec::<u8, [u32; 4]>(bytes))?;
+        visibility.value = bound.read(0, bytemuck::pod_collect_to_vec::<u8, f32>)?;
+        let records = bound.read(1, bytemuck::pod_collect_to_vec::<u8, [u32; 4]>)?;
         for (pixel, [case, key, reads, steps]) in records.into_iter().enumerate() {
             costs.reads.push(reads);
             costs.steps.push(steps);
@@ -254,7 +293,7 @@ impl<'g> Shader<'g> {
     pub fn counts(&self, frame: &GpuFrame, settings: &Settings) -> Result<Vec<u64>, Failure> {
         let bound = self.bind(frame, settings)?;
         bound.submit();
-        let by_key = bound.read(0, |bytes| bytemuck::pod_collect_to_vec::<u8, u32>(bytes))?;
+        let by_key = bound.read(0, bytemuck::pod_collect_to_vec::<u8, u32>)?;
         let mut counts = vec![0; self.keys.states.len()];
         for (key, state) in &self.keys.states {
             counts[*state as usize] = u64::from(by_key[*key as usize]);
@@ -282,7 +321,7 @@ impl Bound<'_, '_> {
     pub fn values(&self) -> Result<Vec<f32>, Failure> {
         self.submit();
         match &self.target {
-            None => self.read(0, |bytes| bytemuck::pod_collect_to_vec::<u8, f32>(bytes)),
+            None => self.read(0, bytemuck::pod_collect_to_vec::<u8, f32>),
             Some(target) => {
                 let [width, height] = self.pixels.map(|side| side as usize);
                 let (bytes, pitch) = self.shader.gpu.read_texture(target, 4)?;
@@ -300,38 +339,64 @@ impl Bound<'_, '_> {
     }
 
     fn encode(&self, encoder: &mut wgpu::CommandEncoder, marks: &Marks<'_>) {
+        let [x, y] = self.pixels.map(|side| side.div_ceil(TILE));
         match &self.shader.pipeline {
             Pipeline::Compute(pipeline) => {
-                let descriptor = wgpu::ComputePassDescriptor { label: None, timestamp_writes: marks.compute() };
-                let mut pass = encoder.begin_compute_pass(&descriptor);
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.frame, &[]);
-                pass.set_bind_group(1, &self.output, &[]);
-                let [x, y] = self.pixels.map(|side| side.div_ceil(TILE));
+                let mut pass = self.compute_pass(encoder, pipeline, marks.compute());
                 pass.dispatch_workgroups(x, y, 1);
             }
-            Pipeline::Render(pipeline) => {
-                let view =
-                    self.target.as_ref().map(|target| target.create_view(&wgpu::TextureViewDescriptor::default()));
-                let attachment = view.as_ref().map(|view| wgpu::RenderPassColorAttachment {
-                    view,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                        store: wgpu::StoreOp::Store,
-                    },
-                });
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    color_attachments: &[attachment],
-                    timestamp_writes: marks.render(),
-                    ..Default::default()
-                });
-                pass.set_pipeline(pipeline);
-                pass.set_bind_group(0, &self.frame, &[]);
-                pass.set_bind_group(1, &self.output, &[]);
-                pass.draw(0..3, 0..1);
+            Pipeline::Queue(glance, queue) => {
+                let [(_, _), (work, _), (_, _), (groups, _)] = self.buffers.as_slice() else { return };
+                self.shader.gpu.queue.write_buffer(work, 0, &WORK);
+                let [first, last] = marks.span();
+                self.compute_pass(encoder, glance, first).dispatch_workgroups(x, y, 1);
+                // What a shader can write cannot say how often it is run.
+                encoder.copy_buffer_to_buffer(work, 0, groups, 0, WORK.len() as u64);
+                self.compute_pass(encoder, queue, last).dispatch_workgroups_indirect(groups, 0);
             }
+            Pipeline::Render(pipeline) => self.draw(encoder, marks, &[pipeline]),
+            Pipeline::Marked(glance, marked) => self.draw(encoder, marks, &[glance, marked]),
+        }
+    }
+
+    fn compute_pass<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        pipeline: &wgpu::ComputePipeline,
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) -> wgpu::ComputePass<'e> {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
+        pass.set_bind_group(0, &self.frame, &[]);
+        pass.set_bind_group(1, &self.output, &[]);
+        pass.set_pipeline(pipeline);
+        pass
+    }
+
+    /// Covers the picture with one pipeline after the other.
+    fn draw(&self, encoder: &mut wgpu::CommandEncoder, marks: &Marks<'_>, pipelines: &[&wgpu::RenderPipeline]) {
+        let view = self.target.as_ref().map(|target| target.create_view(&wgpu::TextureViewDescriptor::default()));
+        let attachment = view.as_ref().map(|view| wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+        });
+        let depth_stencil = self.marks.as_ref().map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        });
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[attachment],
+            depth_stencil_attachment: depth_stencil,
+            timestamp_writes: marks.render(),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, &self.frame, &[]);
+        pass.set_bind_group(1, &self.output, &[]);
+        for pipeline in pipelines {
+            pass.set_pipeline(pipeline);
+            pass.draw(0..3, 0..1);
         }
     }
 
@@ -394,12 +459,14 @@ fn storage(binding: u32, stage: wgpu::ShaderStages, read_only: bool) -> wgpu::Bi
     }
 }
 
-/// A pipeline whose fragment shader covers the picture.
+/// A pipeline whose fragment shader covers the picture; `compare` if there are marks.
 fn cover(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
     module: &wgpu::ShaderModule,
-    options: wgpu::PipelineCompilationOptions<'_>,
+    options: &wgpu::PipelineCompilationOptions<'_>,
+    entry: &str,
+    compare: Option<wgpu::CompareFunction>,
 ) -> wgpu::RenderPipeline {
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("visibility"),
@@ -411,12 +478,18 @@ fn cover(
             buffers: &[],
         },
         primitive: wgpu::PrimitiveState::default(),
-        depth_stencil: None,
+        depth_stencil: compare.map(|compare| wgpu::DepthStencilState {
+            format: MARKS,
+            depth_write_enabled: Some(compare == wgpu::CompareFunction::Always),
+            depth_compare: Some(compare),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module,
-            entry_point: Some("visibility_pass"),
-            compilation_options: options,
+            entry_point: Some(entry),
+            compilation_options: options.clone(),
             targets: &[Some(wgpu::TextureFormat::R32Float.into())],
         }),
         multiview_mask: None,

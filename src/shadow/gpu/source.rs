@@ -26,6 +26,9 @@ const COMPUTE: &str = include_str!("wgsl/compute.wgsl");
 const FRAGMENT: &str = include_str!("wgsl/fragment.wgsl");
 const RECORD: &str = include_str!("wgsl/record.wgsl");
 const COUNT: &str = include_str!("wgsl/count.wgsl");
+const GLANCE: &str = include_str!("wgsl/glance.wgsl");
+const COMPUTE_TWO: &str = include_str!("wgsl/compute_two.wgsl");
+const FRAGMENT_TWO: &str = include_str!("wgsl/fragment_two.wgsl");
 
 /// How the skeleton reads the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -36,6 +39,15 @@ pub enum Reads {
     Gathered,
 }
 
+/// In how many goes a picture is treated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Passes {
+    /// All at once.
+    One,
+    /// First a glance at every pixel, then the pixels at silhouettes, packed together.
+    Two,
+}
+
 /// What a skeleton does that costs time and changes no value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Skeleton {
@@ -44,15 +56,17 @@ pub struct Skeleton {
     /// Whether it reads which discontinuity dominates at corners, and so takes the very case of the
     /// table. Otherwise both are said to dominate, which is another case of the same value.
     pub dominance: bool,
+    /// In how many goes, for the outputs that are values only.
+    pub passes: Passes,
 }
 
 impl Skeleton {
-    /// The cases as published, read as fast as possible.
-    pub const EXACT: Skeleton = Skeleton { reads: Reads::Gathered, dominance: true };
-    /// The collapsed form: corners cost no further reads.
-    pub const COLLAPSED: Skeleton = Skeleton { reads: Reads::Gathered, dominance: false };
+    /// The cases as published, in one pass.
+    pub const EXACT: Skeleton = Skeleton { reads: Reads::Gathered, dominance: true, passes: Passes::One };
+    /// The collapsed form, in which corners cost no further reads, in two passes.
+    pub const FAST: Skeleton = Skeleton { reads: Reads::Gathered, dominance: false, passes: Passes::Two };
     /// As the authors' shaders of 2015 go about it.
-    pub const PUBLISHED: Skeleton = Skeleton { reads: Reads::Single, dominance: true };
+    pub const PUBLISHED: Skeleton = Skeleton { reads: Reads::Single, dominance: true, passes: Passes::One };
 }
 
 /// What a visibility pass gives.
@@ -123,7 +137,10 @@ pub fn source(
         Technique::Pcf => out.push_str(PCF),
         Technique::Smsr => table(&mut out, SMSR)?,
         Technique::Rsmss | Technique::Rpcf => table(&mut out, RSMSS)?,
-        Technique::CaseFree => [EDGES, SINGLE_READS, CASE_FREE].into_iter().for_each(|part| out.push_str(part)),
+        Technique::CaseFree => {
+            out.push_str("const READ_DOMINANCE: bool = false;\n");
+            [EDGES, SINGLE_READS, CASE_FREE].into_iter().for_each(|part| out.push_str(part));
+        }
         Technique::Reference => {
             let error = Diagnostic::error(codes::NOT_APPLICABLE, "the reference is made without a shadow map")
                 .help("it is computed by the CPU: `--backend cpu`");
@@ -135,13 +152,23 @@ pub fn source(
         Technique::Rpcf => out.push_str(MEAN),
         Technique::Hard | Technique::Pcf | Technique::Reference => {}
     }
-    out.push_str(match output {
-        Output::Compute => COMPUTE,
-        Output::Fragment => FRAGMENT,
-        Output::Record => RECORD,
-        Output::Count => COUNT,
-    });
+    match (output, passes(technique, skeleton)) {
+        (Output::Compute, Passes::One) => out.push_str(COMPUTE),
+        (Output::Fragment, Passes::One) => out.push_str(FRAGMENT),
+        (Output::Record, _) => out.push_str(RECORD),
+        (Output::Count, _) => out.push_str(COUNT),
+        (Output::Compute, Passes::Two) => [GLANCE, COMPUTE_TWO].into_iter().for_each(|part| out.push_str(part)),
+        (Output::Fragment, Passes::Two) => [GLANCE, FRAGMENT_TWO].into_iter().for_each(|part| out.push_str(part)),
+    }
     Ok(out)
+}
+
+/// In how many goes a technique is evaluated: only what searches silhouettes has something to put off.
+pub(super) fn passes(technique: Technique, skeleton: Skeleton) -> Passes {
+    match technique {
+        Technique::Smsr | Technique::Rsmss => skeleton.passes,
+        Technique::Hard | Technique::Pcf | Technique::Rpcf | Technique::CaseFree | Technique::Reference => Passes::One,
+    }
 }
 
 /// The levels of an input as the skeleton numbers them.

@@ -6,7 +6,7 @@ fn dominance(e: Edge) -> vec2<bool> {
     if (!is_corner(e.H, e.V)) {
         return vec2<bool>(false);
     }
-    if (!READ_DOMINANCE) {
+    if (!reads_dominance()) {
         // Both: the table then takes the minimum or maximum over the two runs, which
         // on every map is the same value (a run without dominance has length 1).
         return vec2<bool>(true);

@@ -71,6 +71,13 @@ fn column(e: Edge) -> Axis {
     return Axis(vec2<i32>(0, 1), vec2<i32>(1, 0), e.H & LEFT, e.H & RIGHT);
 }
 
+// Whether it is to be read which discontinuity dominates at a corner. Where walks
+// lift the receiver, a run without dominance may be longer than one texel, and
+// the collapsed form does not hold.
+fn reads_dominance() -> bool {
+    return READ_DOMINANCE || frame.walk_bias > 0.0;
+}
+
 fn is_corner(H: u32, V: u32) -> bool {
     return (H == LEFT || H == RIGHT) && (V == TOP || V == BOTTOM);
 }

@@ -28,7 +28,7 @@ fn look(at: Centre) -> Edge {
     // An opposite texel with another one beside it does not stand alone.
     let doubtful = ISOLATED_SIDES && any(sides & !vec4<bool>(lower_right, upper_left, upper_left, lower_right));
     let two_sides = NEEDS_NEIGHBOURS && ((sides.x && sides.y) || (sides.z && sides.w));
-    let corner = READ_DOMINANCE && sides.x != sides.y && sides.z != sides.w;
+    let corner = reads_dominance() && sides.x != sides.y && sides.z != sides.w;
     if (doubtful || two_sides || corner) {
         corners.y = (plane(c.z, c.slope, vec2<i32>(1, -1)) <= gather(c.texel + vec2<i32>(1, 0)).z) != c.lit;
         corners.z = (plane(c.z, c.slope, vec2<i32>(-1, 1)) <= gather(c.texel + vec2<i32>(0, 1)).x) != c.lit;

@@ -1,0 +1,748 @@
+//! All inputs of a program at once, as sets that can be computed with.
+//!
+//! Every discrete input is a digit of a [`Sets`]; so is every comparison of
+//! numbers, as the sign of an affine form, which can be positive, zero or
+//! negative. A condition is then a set, whatever it is made of, and an analysis
+//! is a few operations on sets instead of a walk through all states. That some
+//! signs exclude each other (`x < 0.25` and `x > 0.5`) is not built into the
+//! sets: [`Space::prune`] takes away what no real numbers can reach.
+//!
+//! A [`View`] says what the inputs mean: themselves, or their images under a
+//! symmetry, possibly of images again.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
+
+use num_traits::{Signed, Zero};
+
+use super::mutate::Random;
+use super::point::Point;
+use super::real::Boxed;
+use super::sets::{Map, Set, Sets};
+use crate::program::normal::{Affine, Lattice, Normaliser, Rational, Term, rational};
+use crate::program::region::{self, Sign};
+use crate::program::{
+    BinaryOp, Comparison, Cond, CondId, Domain, ExprId, InputId, LevelSet, LevelTerm, Node, Pool, Program, TernaryOp,
+};
+
+/// Most selection-free values that one expression may have.
+const MAX_PARTS: usize = 1024;
+
+/// Most steps in the search for real numbers with given signs.
+const MAX_STEPS: usize = 20_000;
+
+/// Number of a view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct View(usize);
+
+impl View {
+    /// The inputs themselves.
+    pub(super) const PLAIN: View = View(0);
+}
+
+/// Images of inputs, which are terms over what another view says.
+struct Images {
+    levels: HashMap<InputId, LevelTerm>,
+    numbers: HashMap<InputId, ExprId>,
+    inner: View,
+}
+
+/// What a digit after those of the inputs asks.
+enum Question {
+    /// The sign of an affine form, by its number.
+    Sign(usize),
+    /// A comparison that has no such form.
+    Opaque,
+}
+
+/// A set and the value there, for each value that an expression can have.
+type Parts = Rc<Vec<(Set, ExprId)>>;
+
+/// The inputs of a program.
+pub(super) struct Space<'p> {
+    pub(super) program: &'p Program,
+    pub(super) pool: Pool,
+    pub(super) sets: Sets,
+    normaliser: Normaliser,
+    /// The digit of each discrete input; those of the states come first.
+    digits: Vec<Option<usize>>,
+    inputs_of_digits: Vec<InputId>,
+    questions: Vec<Question>,
+    forms: Vec<Affine>,
+    form_digits: HashMap<Affine, usize>,
+    opaque_digits: HashMap<(ExprId, ExprId), usize>,
+    views: Vec<Images>,
+    conditions: Map<(CondId, View), Set>,
+    parts: Map<(ExprId, View), Parts>,
+    pruned: Map<Set, Set>,
+    /// Signs of forms that were asked for together, and whether numbers have them.
+    possible: HashMap<Vec<(usize, u8)>, bool>,
+    too_large: bool,
+}
+
+impl<'p> Space<'p> {
+    pub(super) fn new(program: &'p Program) -> Self {
+        let mut sets = Sets::new();
+        let mut digits = vec![None; program.inputs.len()];
+        let mut inputs_of_digits = Vec::new();
+        let states = program.states.digits().iter().map(|(input, _)| *input);
+        let others = program.input_ids().map(|(input, _)| input);
+        for input in states.chain(others) {
+            if let (Some(levels), None) = (program.levels(input), digits[input.index()]) {
+                digits[input.index()] = Some(sets.digit(levels.count()));
+                inputs_of_digits.push(input);
+            }
+        }
+        Self {
+            program,
+            pool: program.pool.clone(),
+            sets,
+            normaliser: Normaliser::default(),
+            digits,
+            inputs_of_digits,
+            questions: Vec::new(),
+            forms: Vec::new(),
+            form_digits: HashMap::new(),
+            opaque_digits: HashMap::new(),
+            views: vec![Images { levels: HashMap::new(), numbers: HashMap::new(), inner: View::PLAIN }],
+            conditions: Map::default(),
+            parts: Map::default(),
+            pruned: Map::default(),
+            possible: HashMap::new(),
+            too_large: false,
+        }
+    }
+
+    /// Whether something was given up for its size. Then no answer is worth anything.
+    pub(super) fn is_too_large(&self) -> bool {
+        self.too_large || self.sets.is_full()
+    }
+
+    /// How many digits belong to the states.
+    pub(super) fn state_digits(&self) -> usize {
+        self.program.states.digits().len()
+    }
+
+    /// The input of a digit, if it belongs to one.
+    pub(super) fn input_of(&self, digit: usize) -> Option<InputId> {
+        self.inputs_of_digits.get(digit).copied()
+    }
+
+    /// The form whose sign a digit is, if it is one.
+    pub(super) fn form_of(&self, digit: usize) -> Option<&Affine> {
+        match self.questions.get(digit.checked_sub(self.inputs_of_digits.len())?)? {
+            Question::Sign(form) => Some(&self.forms[*form]),
+            Question::Opaque => None,
+        }
+    }
+
+    /// The view in which inputs are images, themselves seen through `inner`.
+    pub(super) fn view(&mut self, levels: &[(InputId, LevelTerm)], numbers: &[(InputId, ExprId)], inner: View) -> View {
+        let (levels, numbers) = (levels.iter().cloned().collect(), numbers.iter().copied().collect());
+        self.views.push(Images { levels, numbers, inner });
+        View(self.views.len() - 1)
+    }
+
+    /// Where a discrete input has one of some levels.
+    fn level(&mut self, input: InputId, levels: LevelSet, view: View) -> Set {
+        if view == View::PLAIN {
+            return self.digits[input.index()].map_or(Set::EMPTY, |digit| self.sets.atom(digit, levels));
+        }
+        let images = &self.views[view.0];
+        let inner = images.inner;
+        match images.levels.get(&input).cloned() {
+            Some(term) => self.level_term(&term, levels, inner),
+            None => self.level(input, levels, inner),
+        }
+    }
+
+    fn level_term(&mut self, term: &LevelTerm, levels: LevelSet, view: View) -> Set {
+        match term {
+            LevelTerm::Const(level) => {
+                if levels.contains(*level) {
+                    Set::ALL
+                } else {
+                    Set::EMPTY
+                }
+            }
+            LevelTerm::Input(input) => self.level(*input, levels, view),
+            LevelTerm::If(condition, then, other) => {
+                let condition = self.condition(*condition, view);
+                let (then, other) = (self.level_term(then, levels, view), self.level_term(other, levels, view));
+                self.choose(condition, then, other)
+            }
+            LevelTerm::Map(inner, renaming) => {
+                let old = renaming.iter().enumerate().filter(|(_, new)| levels.contains(**new));
+                let old = old.fold(0, |set, (old, _)| set | LevelSet::one(old as u8).0);
+                self.level_term(inner, LevelSet(old), view)
+            }
+        }
+    }
+
+    fn choose(&mut self, condition: Set, then: Set, other: Set) -> Set {
+        let (then, other) = (self.sets.and(condition, then), self.sets.minus(other, condition));
+        self.sets.or(then, other)
+    }
+
+    /// Where a condition of the program holds.
+    pub(super) fn condition(&mut self, condition: CondId, view: View) -> Set {
+        if let Some(known) = self.conditions.get(&(condition, view)) {
+            return *known;
+        }
+        let set = match self.pool.cond(condition).clone() {
+            Cond::Const(true) => Set::ALL,
+            Cond::Const(false) => Set::EMPTY,
+            Cond::Level(input, levels) => self.level(input, levels, view),
+            Cond::Compare(op, a, b) => self.compare(op, a, b, view),
+            Cond::Not(a) => {
+                let a = self.condition(a, view);
+                self.sets.not(a)
+            }
+            Cond::And(list) => self.fold(&list, Set::ALL, view, Sets::and),
+            Cond::Or(list) => self.fold(&list, Set::EMPTY, view, Sets::or),
+            Cond::If(c, a, b) => {
+                let [c, a, b] = [c, a, b].map(|part| self.condition(part, view));
+                self.choose(c, a, b)
+            }
+        };
+        self.conditions.insert((condition, view), set);
+        set
+    }
+
+    fn fold(&mut self, list: &[CondId], start: Set, view: View, join: fn(&mut Sets, Set, Set) -> Set) -> Set {
+        list.iter().fold(start, |set, part| {
+            let part = self.condition(*part, view);
+            join(&mut self.sets, set, part)
+        })
+    }
+
+    fn compare(&mut self, op: Comparison, a: ExprId, b: ExprId, view: View) -> Set {
+        let (left, right) = (self.parts(a, view), self.parts(b, view));
+        let mut result = Set::EMPTY;
+        for (here, a) in left.iter() {
+            for (there, b) in right.iter() {
+                let both = self.sets.and(*here, *there);
+                if both.is_empty() {
+                    continue;
+                }
+                let holds = match op {
+                    Comparison::Less => self.less(*a, *b),
+                    Comparison::LessEqual => self.at_most(*a, *b),
+                    Comparison::Equal => self.equal(*a, *b),
+                };
+                let holds = self.sets.and(both, holds);
+                result = self.sets.or(result, holds);
+            }
+        }
+        result
+    }
+
+    /// Where `a < b`, of values without selections.
+    pub(super) fn less(&mut self, a: ExprId, b: ExprId) -> Set {
+        if let (Some((a, lo, hi)), Some((b, other_lo, other_hi))) = (self.clamped(a), self.clamped(b))
+            && (lo, hi) == (other_lo, other_hi)
+            && lo < hi
+        {
+            // Clamped alike, they differ where they do, unless both are beyond one bound.
+            let (lo, hi) = (self.pool.number(lo), self.pool.number(hi));
+            let (inner, low, high) = (self.less(a, b), self.less(lo, b), self.less(a, hi));
+            let within = self.sets.and(low, high);
+            return self.sets.and(inner, within);
+        }
+        let Some((a_form, b_form)) = self.lattice(a).zip(self.lattice(b)) else {
+            return self.opaque(a, b);
+        };
+        // Each clause of b has a part that is larger than all of some clause of a.
+        let mut all = Set::ALL;
+        for clause in &b_form {
+            let mut any = Set::EMPTY;
+            for part in clause {
+                for smaller in &a_form {
+                    let mut larger = Set::ALL;
+                    for other in smaller {
+                        let minus = other.times(Rational::from_integer(-1));
+                        let Some(difference) = minus.and_then(|other| part.plus(&other)) else {
+                            return self.opaque(a, b);
+                        };
+                        let positive = self.positive(difference);
+                        larger = self.sets.and(larger, positive);
+                    }
+                    any = self.sets.or(any, larger);
+                }
+            }
+            all = self.sets.and(all, any);
+        }
+        all
+    }
+
+    fn at_most(&mut self, a: ExprId, b: ExprId) -> Set {
+        let more = self.less(b, a);
+        self.sets.not(more)
+    }
+
+    fn equal(&mut self, a: ExprId, b: ExprId) -> Set {
+        let different = self.different(&[a], &[b]);
+        self.sets.not(different)
+    }
+
+    /// Where some components differ, of values without selections.
+    pub(super) fn different(&mut self, a: &[ExprId], b: &[ExprId]) -> Set {
+        let mut result = Set::EMPTY;
+        for (a, b) in a.iter().zip(b) {
+            if a == b {
+                continue;
+            }
+            let forms = (self.normaliser.normal(&self.pool, *a), self.normaliser.normal(&self.pool, *b));
+            if forms.0.is_some() && forms.0 == forms.1 {
+                continue;
+            }
+            let (less, more) = (self.less(*a, *b), self.less(*b, *a));
+            let either = self.sets.or(less, more);
+            result = self.sets.or(result, either);
+        }
+        result
+    }
+
+    fn clamped(&self, expr: ExprId) -> Option<(ExprId, f64, f64)> {
+        match self.pool.node(expr) {
+            Node::Ternary(TernaryOp::Clamp, inner, lo, hi) => {
+                Some((inner, self.pool.constant(lo)?, self.pool.constant(hi)?))
+            }
+            _ => None,
+        }
+    }
+
+    /// The normal form of a value without selections.
+    pub(super) fn lattice(&mut self, expr: ExprId) -> Option<Lattice> {
+        let id = self.normaliser.normal(&self.pool, expr)?;
+        Some(self.normaliser.lattice_of(id).clone())
+    }
+
+    /// Where a form is positive.
+    fn positive(&mut self, form: Affine) -> Set {
+        if let Some((lo, hi)) = self.bounds(&form) {
+            if lo.is_positive() {
+                return Set::ALL;
+            }
+            if !hi.is_positive() {
+                return Set::EMPTY;
+            }
+        }
+        let Some(leading) = form.terms.values().next().copied() else { return Set::EMPTY };
+        let Some(canonical) = form.times(leading.recip()) else {
+            self.too_large = true;
+            return Set::EMPTY;
+        };
+        let digit = match self.form_digits.get(&canonical) {
+            Some(digit) => *digit,
+            None => {
+                self.questions.push(Question::Sign(self.forms.len()));
+                self.forms.push(canonical.clone());
+                let digit = self.sets.digit(Sign::ALL.len());
+                self.form_digits.insert(canonical, digit);
+                digit
+            }
+        };
+        let wanted = if leading.is_negative() { Sign::Negative } else { Sign::Positive };
+        self.sets.atom(digit, LevelSet::one(code(wanted)))
+    }
+
+    /// What a form can be, each input taken for itself.
+    fn bounds(&self, form: &Affine) -> Option<(Rational, Rational)> {
+        let (mut lo, mut hi) = (form.constant, form.constant);
+        for (term, factor) in &form.terms {
+            let Term::Input(input) = term else { return None };
+            let Domain::Continuous { lo: from, hi: to, .. } = self.program.inputs[input.index()].domain else {
+                return None;
+            };
+            let (a, b) = (rational(from)? * factor, rational(to)? * factor);
+            lo += a.min(b);
+            hi += a.max(b);
+        }
+        Some((lo, hi))
+    }
+
+    fn opaque(&mut self, a: ExprId, b: ExprId) -> Set {
+        let digit = match self.opaque_digits.get(&(a, b)) {
+            Some(digit) => *digit,
+            None => {
+                self.questions.push(Question::Opaque);
+                let digit = self.sets.digit(2);
+                self.opaque_digits.insert((a, b), digit);
+                digit
+            }
+        };
+        self.sets.atom(digit, LevelSet(1))
+    }
+
+    /// The values without selections that an expression has, and where.
+    pub(super) fn parts(&mut self, expr: ExprId, view: View) -> Parts {
+        if view == View::PLAIN && !self.pool.expr_facts(expr).selects {
+            return Rc::new(vec![(Set::ALL, expr)]);
+        }
+        if let Some(known) = self.parts.get(&(expr, view)) {
+            return known.clone();
+        }
+        let parts = match self.pool.node(expr) {
+            Node::Const(_) | Node::Result => vec![(Set::ALL, expr)],
+            Node::Input(input) => {
+                let inner = self.views[view.0].inner;
+                let image = self.views[view.0].numbers.get(&input).copied();
+                match view == View::PLAIN {
+                    true => vec![(Set::ALL, expr)],
+                    false => self.parts(image.unwrap_or(expr), inner).to_vec(),
+                }
+            }
+            Node::Unary(op, a) => {
+                let parts = self.parts(a, view);
+                parts.iter().map(|(set, a)| (*set, self.pool.unary(op, *a))).collect()
+            }
+            Node::Binary(op, a, b) => {
+                let parts = self.products(&[a, b], view);
+                parts.into_iter().map(|(set, list)| (set, self.pool.binary(op, list[0], list[1]))).collect()
+            }
+            Node::Ternary(op, a, b, c) => {
+                let parts = self.products(&[a, b, c], view);
+                parts.into_iter().map(|(set, list)| (set, self.pool.ternary(op, list[0], list[1], list[2]))).collect()
+            }
+            Node::Select(condition, a, b) => {
+                let holds = self.condition(condition, view);
+                let (then, other) = (self.parts(a, view), self.parts(b, view));
+                let then: Vec<_> = then.iter().map(|(set, value)| (self.sets.and(*set, holds), *value)).collect();
+                let other = other.iter().map(|(set, value)| (self.sets.minus(*set, holds), *value));
+                then.into_iter().chain(other.collect::<Vec<_>>()).collect()
+            }
+        };
+        let parts = Rc::new(self.merged(parts));
+        self.parts.insert((expr, view), parts.clone());
+        parts
+    }
+
+    /// The values that several expressions have together.
+    pub(super) fn products(&mut self, list: &[ExprId], view: View) -> Vec<(Set, Vec<ExprId>)> {
+        let mut result: Vec<(Set, Vec<ExprId>)> = vec![(Set::ALL, Vec::new())];
+        for expr in list {
+            let parts = self.parts(*expr, view);
+            if result.len() * parts.len() > MAX_PARTS {
+                self.too_large = true;
+                return Vec::new();
+            }
+            let mut next = Vec::with_capacity(result.len() * parts.len());
+            for (set, values) in &result {
+                for (part, value) in parts.iter() {
+                    let both = self.sets.and(*set, *part);
+                    if !both.is_empty() {
+                        next.push((both, values.iter().copied().chain([*value]).collect()));
+                    }
+                }
+            }
+            result = next;
+        }
+        result
+    }
+
+    /// The same parts, each value once and nothing empty.
+    fn merged(&mut self, parts: Vec<(Set, ExprId)>) -> Vec<(Set, ExprId)> {
+        let mut result: Vec<(Set, ExprId)> = Vec::with_capacity(parts.len());
+        for (set, value) in parts {
+            match result.iter_mut().find(|(_, known)| *known == value) {
+                _ if set.is_empty() => {}
+                Some((known, _)) => *known = self.sets.or(*known, set),
+                None => result.push((set, value)),
+            }
+        }
+        result
+    }
+
+    /// What real numbers and levels can reach of a set.
+    ///
+    /// A combination of signs that some numbers have is kept together with
+    /// others that differ from it in signs only.
+    pub(super) fn prune(&mut self, set: Set) -> Set {
+        let Some((digit, children)) = self.sets.test(set) else { return set };
+        if let Some(known) = self.pruned.get(&set) {
+            return *known;
+        }
+        let result = if digit >= self.inputs_of_digits.len() {
+            if self.signs(set).is_some() { set } else { Set::EMPTY }
+        } else {
+            let children = children.to_vec();
+            let children: Vec<Set> = children.into_iter().map(|child| self.prune(child)).collect();
+            self.sets.node(digit, &children)
+        };
+        self.pruned.insert(set, result);
+        result
+    }
+
+    /// Whether nothing can reach a set.
+    pub(super) fn is_void(&mut self, set: Set) -> bool {
+        // Without comparisons every combination of levels can be reached.
+        if self.questions.is_empty() { set.is_empty() } else { self.prune(set).is_empty() }
+    }
+
+    /// Whether something can reach both sets.
+    pub(super) fn can_meet(&mut self, a: Set, b: Set) -> bool {
+        if !self.sets.meets(a, b) {
+            return false;
+        }
+        if self.questions.is_empty() {
+            return true;
+        }
+        let both = self.sets.and(a, b);
+        !self.is_void(both)
+    }
+
+    /// The states in which something can reach a set.
+    pub(super) fn states(&mut self, set: Set) -> Set {
+        let pruned = self.prune(set);
+        self.sets.shadow(pruned, self.state_digits())
+    }
+
+    /// In how many states something can reach a set.
+    pub(super) fn count(&mut self, set: Set) -> usize {
+        let states = self.states(set);
+        self.sets.count(states, self.state_digits()).round() as usize
+    }
+
+    /// Signs and outcomes, by digit, with which numbers reach a set that tests only these.
+    fn signs(&mut self, set: Set) -> Option<Vec<(usize, u8)>> {
+        let mut found = Vec::new();
+        let mut steps = MAX_STEPS;
+        self.search(set, &mut found, &mut steps).then_some(found)
+    }
+
+    fn search(&mut self, set: Set, found: &mut Vec<(usize, u8)>, steps: &mut usize) -> bool {
+        if set.is_empty() {
+            return false;
+        }
+        *steps = steps.saturating_sub(1);
+        let Some((digit, children)) = self.sets.test(set) else { return true };
+        // Out of patience: what was not refuted is taken to be possible.
+        if *steps == 0 {
+            return true;
+        }
+        // Points on lines mean more than they seem to, so zero is tried last.
+        let order: &[usize] = if children.len() == Sign::ALL.len() { &[0, 2, 1] } else { &[0, 1] };
+        let children: Vec<(usize, Set)> = order.iter().map(|level| (*level, children[*level])).collect();
+        for (level, child) in children {
+            if child.is_empty() {
+                continue;
+            }
+            found.push((digit, level as u8));
+            if self.possible(found) && self.search(child, found, steps) {
+                return true;
+            }
+            found.pop();
+        }
+        false
+    }
+
+    /// Whether some numbers have all these signs.
+    fn possible(&mut self, answers: &[(usize, u8)]) -> bool {
+        let signs = self.forms_of(answers);
+        if let Some(known) = self.possible.get(&signs) {
+            return *known;
+        }
+        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+        let possible = region::can_hold(self.program, with_forms);
+        self.possible.insert(signs, possible);
+        possible
+    }
+
+    fn forms_of(&self, answers: &[(usize, u8)]) -> Vec<(usize, u8)> {
+        let first = self.inputs_of_digits.len();
+        let forms = answers.iter().filter_map(|(digit, sign)| match self.questions[digit - first] {
+            Question::Sign(form) => Some((form, *sign)),
+            Question::Opaque => None,
+        });
+        forms.collect()
+    }
+
+    /// An input that reaches a set, if one does.
+    pub(super) fn witness(&mut self, set: Set) -> Option<Witness> {
+        let mut rest = self.prune(set);
+        let mut levels = vec![None; self.program.inputs.len()];
+        loop {
+            match self.sets.test(rest) {
+                Some((digit, children)) if digit < self.inputs_of_digits.len() => {
+                    let input = self.inputs_of_digits[digit];
+                    let open = |level: &u8| !children[usize::from(*level)].is_empty();
+                    let level = self.usual(input).filter(open).or((0..children.len() as u8).find(open))?;
+                    levels[input.index()] = Some(level);
+                    rest = children[usize::from(level)];
+                }
+                _ => break,
+            }
+        }
+        let answers = self.signs(rest)?;
+        let signs = self.forms_of(&answers);
+        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+        let point = region::point(self.program, with_forms);
+        let linear = signs.iter().all(|(form, _)| self.forms[*form].terms.keys().all(|t| matches!(t, Term::Input(_))));
+        let certain = point.is_some() && linear && signs.len() == answers.len();
+        Some(Witness { levels, numbers: self.numbers(&point.unwrap_or_default()), certain })
+    }
+
+    /// An input that reaches a set with these numbers, if one does.
+    pub(super) fn with_numbers(&self, set: Set, numbers: &[f64]) -> Option<Witness> {
+        let levels = self.reach(set, &Boxed::at(numbers))?;
+        Some(Witness { levels, numbers: numbers.iter().map(|number| Some(*number)).collect(), certain: true })
+    }
+
+    /// Whether numbers of a box may reach a set.
+    pub(super) fn can_be_in(&self, set: Set, part: &Boxed) -> bool {
+        self.reach(set, part).is_some()
+    }
+
+    /// Levels with which numbers of a box may reach a set.
+    fn reach(&self, set: Set, part: &Boxed) -> Option<Vec<Option<u8>>> {
+        let mut levels = vec![None; self.program.inputs.len()];
+        self.reach_memo(set, part, &mut levels, &mut HashSet::new()).then_some(levels)
+    }
+
+    fn reach_memo(&self, set: Set, part: &Boxed, levels: &mut Vec<Option<u8>>, failed: &mut HashSet<Set>) -> bool {
+        let Some((digit, children)) = self.sets.test(set) else { return !set.is_empty() };
+        if failed.contains(&set) {
+            return false;
+        }
+        let input = self.input_of(digit);
+        let allowed = match input {
+            Some(_) => LevelSet::all(children.len()),
+            None => self.signs_in(digit, part),
+        };
+        for level in allowed.iter() {
+            if let Some(input) = input {
+                levels[input.index()] = Some(level);
+            }
+            if self.reach_memo(children[usize::from(level)], part, levels, failed) {
+                return true;
+            }
+        }
+        if let Some(input) = input {
+            levels[input.index()] = None;
+        }
+        failed.insert(set);
+        false
+    }
+
+    /// The signs that the form of a digit can have in a box.
+    fn signs_in(&self, digit: usize, part: &Boxed) -> LevelSet {
+        let Question::Sign(form) = self.questions[digit - self.inputs_of_digits.len()] else {
+            return LevelSet::all(2);
+        };
+        let number = |value: Rational| *value.numer() as f64 / *value.denom() as f64;
+        let form = &self.forms[form];
+        let (mut lo, mut hi) = (number(form.constant), number(form.constant));
+        for (term, factor) in &form.terms {
+            let Term::Input(input) = term else { return LevelSet::all(Sign::ALL.len()) };
+            let ((from, to), factor) = (part.of(*input), number(*factor));
+            lo += (from * factor).min(to * factor);
+            hi += (from * factor).max(to * factor);
+        }
+        let possible = [(Sign::Positive, hi > 0.0), (Sign::Zero, lo <= 0.0 && hi >= 0.0), (Sign::Negative, lo < 0.0)];
+        let possible = possible.into_iter().filter(|(_, can)| *can);
+        LevelSet(possible.fold(0, |set, (sign, _)| set | LevelSet::one(code(sign)).0))
+    }
+
+    /// The digits of comparisons that involve one of some inputs.
+    pub(super) fn switches(&self, inputs: &[InputId]) -> Vec<usize> {
+        let first = self.inputs_of_digits.len();
+        let involved = |question: &Question| match question {
+            Question::Sign(form) => {
+                let terms = self.forms[*form].terms.keys();
+                terms.into_iter().any(|term| matches!(term, Term::Input(input) if inputs.contains(input)))
+            }
+            Question::Opaque => false,
+        };
+        (0..self.questions.len()).filter(|number| involved(&self.questions[*number])).map(|n| n + first).collect()
+    }
+
+    /// Some input that reaches a set, if one does.
+    pub(super) fn sample(&mut self, set: Set, random: &mut Random) -> Option<Point> {
+        let mut rest = self.prune(set);
+        let program = self.program;
+        let count = |input: InputId| program.levels(input).map_or(1, |levels| levels.count());
+        let mut levels: Vec<u8> = program.input_ids().map(|(id, _)| random.below(count(id)) as u8).collect();
+        while let Some((digit, children)) = self.sets.test(rest)
+            && let Some(input) = self.input_of(digit)
+        {
+            let open: Vec<usize> = (0..children.len()).filter(|level| !children[*level].is_empty()).collect();
+            let level = *open.get(random.below(open.len()))?;
+            levels[input.index()] = level as u8;
+            rest = children[level];
+        }
+        let answers = self.signs(rest)?;
+        let signs = self.forms_of(&answers);
+        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+        let point = region::point(program, with_forms).unwrap_or_default();
+        let mut numbers: Vec<f64> = self.numbers(&point).into_iter().map(Option::unwrap_or_default).collect();
+        for (id, input) in program.input_ids() {
+            if let (Domain::Continuous { lo, hi, .. }, false) = (&input.domain, point.contains_key(&id)) {
+                numbers[id.index()] = lo + (hi - lo) * (random.below(255) as f64 + 0.5) / 256.0;
+            }
+        }
+        Some(Point { levels, numbers })
+    }
+
+    /// The level that an input has when nothing is said of it.
+    fn usual(&self, input: InputId) -> Option<u8> {
+        match self.program.inputs[input.index()].default {
+            Some(crate::program::Value::Level(level)) => Some(level),
+            _ => None,
+        }
+    }
+
+    /// A number for every continuous input: that of the point, or one in the middle of nowhere.
+    fn numbers(&self, point: &BTreeMap<InputId, Rational>) -> Vec<Option<f64>> {
+        let number = |(index, input): (usize, &crate::program::Input)| {
+            let Domain::Continuous { lo, hi, .. } = &input.domain else { return None };
+            let known = point.get(&InputId::new(index)).copied();
+            let free = || region::between(rational(*lo)?, rational(*hi)?, index);
+            let chosen = known.or_else(free).unwrap_or_else(Rational::zero);
+            Some(*chosen.numer() as f64 / *chosen.denom() as f64)
+        };
+        self.program.inputs.iter().enumerate().map(number).collect()
+    }
+
+    /// A result map, without selections, of a value.
+    pub(super) fn with_result(&mut self, map: ExprId, value: ExprId) -> ExprId {
+        match self.pool.node(map) {
+            Node::Result => value,
+            Node::Const(_) | Node::Input(_) | Node::Select(..) => map,
+            Node::Unary(op, a) => {
+                let a = self.with_result(a, value);
+                self.pool.unary(op, a)
+            }
+            Node::Binary(op, a, b) => {
+                let [a, b] = [a, b].map(|part| self.with_result(part, value));
+                self.pool.binary(op, a, b)
+            }
+            Node::Ternary(op, a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|part| self.with_result(part, value));
+                self.pool.ternary(op, a, b, c)
+            }
+        }
+    }
+
+    /// Where `b` is more than `a + by`, of values without selections.
+    pub(super) fn exceeds(&mut self, a: ExprId, b: ExprId, by: f64) -> Set {
+        let by = self.pool.number(by);
+        let raised = self.pool.binary(BinaryOp::Add, a, by);
+        self.less(raised, b)
+    }
+}
+
+fn code(sign: Sign) -> u8 {
+    Sign::ALL.iter().position(|other| *other == sign).unwrap_or_default() as u8
+}
+
+/// Inputs that reach some set.
+#[derive(Debug, Clone)]
+pub(super) struct Witness {
+    /// The levels that matter.
+    pub(super) levels: Vec<Option<u8>>,
+    /// A number for each continuous input.
+    pub(super) numbers: Vec<Option<f64>>,
+    /// Whether these very inputs reach the set; otherwise something that is not linear decides.
+    pub(super) certain: bool,
+}

@@ -1,0 +1,206 @@
+//! The gate for plans that compute otherwise than the table: equality over the
+//! reals, wherever the assumptions hold if the plan makes use of them.
+//!
+//! [`prove`](super::prove) compares operations and takes comparisons that look
+//! different for independent. Here program and plan run on the same
+//! [`Machine`], which knows the signs of differences and what can hold together,
+//! so that `min(u, 1 + w - d)` is seen to be `u` where an assumption says so.
+//! Cases must agree where the plan reports them; of fetches, the plan may make
+//! none that the program does not, and none twice.
+
+use std::collections::HashMap;
+use std::ops::ControlFlow;
+
+use super::prove::{Counterexample, Proof, Refusal};
+use super::reachable::reachable;
+use super::turn::Turn;
+use super::{Plan, Step, StepId, rounding};
+use crate::program::print::Printer;
+use crate::program::symbolic::{Machine, View};
+use crate::program::{ExprId, InputSet};
+
+/// Proves a plan.
+pub(super) fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
+    let program = plan.program;
+    let states: Vec<usize> = match plan.assumed {
+        true => reachable(program),
+        false => (0..program.states.count()).collect(),
+    };
+    let mut machine = Machine::over(program, &plan.pool);
+    let mut prover = Prover {
+        plan,
+        proof: Proof { states: states.len(), assumed: plan.assumed, paths: 0, identical: 0, rounding: Some(0.0) },
+        errors: HashMap::new(),
+        compares: compares(plan),
+    };
+    for state in &states {
+        let turn = match plan.step(plan.root()) {
+            Step::Orbit { .. } => {
+                let entry = usize::from(plan.lookup.get(*state).copied().unwrap_or_default());
+                let word = entry & ((1 << plan.symmetries.len()) - 1);
+                Turn::new(program, machine.pool(), &plan.symmetries, word, *state)
+            }
+            _ => None,
+        };
+        let mut different = None;
+        machine.any_path(*state, |machine| match prover.path(machine, *state, turn.as_ref()) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err((row, reason)) => {
+                different = Some((row, reason));
+                ControlFlow::Break(())
+            }
+        });
+        let described = |machine: &Machine<'_>| machine.describe().split(", ").map(str::to_owned).collect();
+        if let Some((row, reason)) = different {
+            let (shape, state) = (plan.shape.name(), described(&machine));
+            return Err(Refusal::Different(Box::new(Counterexample { shape, state, reason, row })));
+        }
+        if machine.gave_up() {
+            return Err(Refusal::TooLong { shape: plan.shape.name(), state: described(&machine) });
+        }
+    }
+    Ok(prover.proof)
+}
+
+struct Prover<'a, 'p> {
+    plan: &'a Plan<'p>,
+    proof: Proof,
+    /// Bounds of the rounding of expressions.
+    errors: HashMap<ExprId, Option<f64>>,
+    /// Whether the plan compares numbers.
+    compares: bool,
+}
+
+/// Whether what follows the lookup compares numbers, or chooses between values.
+fn compares(plan: &Plan<'_>) -> bool {
+    plan.reachable().into_iter().any(|step| match plan.step(step) {
+        Step::Test { condition, .. } => plan.pool.compares(*condition),
+        Step::Leaf(leaf) => leaf.values.iter().any(|value| plan.pool.expr_facts(*value).selects),
+        Step::Fetch { .. } | Step::Switch { .. } | Step::Coefficients { .. } | Step::Orbit { .. } => false,
+    })
+}
+
+struct Run {
+    row: Option<usize>,
+    line: Option<usize>,
+    values: Vec<ExprId>,
+    fetched: InputSet,
+}
+
+/// The row that the program takes, and what is wrong.
+type Difference = (Option<usize>, String);
+
+impl Prover<'_, '_> {
+    fn path(&mut self, machine: &mut Machine<'_>, state: usize, turn: Option<&Turn>) -> Result<(), Difference> {
+        let program = self.plan.program;
+        if self.plan.assumed {
+            let conditions = program.assumptions.iter().map(|assumption| assumption.condition);
+            if !conditions.into_iter().all(|condition| machine.holds(condition, View::PLAIN)) {
+                return Ok(());
+            }
+        }
+        machine.take_looked_at();
+        let (row, line, want) = machine.run_to_line();
+        let needed = machine.take_looked_at();
+        let got = self.run(machine, state, turn).map_err(|reason| (row, reason))?;
+        self.proof.paths += 1;
+        if self.plan.shape.reports_case() && (row, line) != (got.row, got.line) {
+            let name =
+                |row: Option<usize>| row.map_or("the default".to_owned(), |r| format!("case {}", program.rows[r].id));
+            let reason = match row == got.row {
+                true => format!("the plan takes another line of {}", name(row)),
+                false => format!("the table takes {}, the plan {}", name(row), name(got.row)),
+            };
+            return Err((row, reason));
+        }
+        if let Some(input) = got.fetched.minus(needed).iter().next() {
+            let input = &program.inputs[input.index()].name;
+            return Err((row, format!("the plan fetches `{input}`, which the table does not need here")));
+        }
+        // The same values, but comparisons of turned inputs may go the other way.
+        let turned = turn.is_some_and(|turn| !turn.is_identity());
+        if turned && self.compares {
+            self.proof.rounding = None;
+        }
+        if want == got.values {
+            self.proof.identical += usize::from(!turned);
+            return Ok(());
+        }
+        if !machine.equal(&want, &got.values) {
+            let printer = Printer { pool: machine.pool(), inputs: &program.inputs };
+            let list = |values: &[ExprId]| values.iter().map(|v| printer.expr(*v)).collect::<Vec<_>>().join(", ");
+            return Err((row, format!("the table gives {}, the plan {}", list(&want), list(&got.values))));
+        }
+        for (a, b) in want.iter().zip(&got.values).filter(|(a, b)| a != b) {
+            let mut bound = |expr: ExprId| {
+                *self.errors.entry(expr).or_insert_with(|| rounding::error(program, machine.pool(), expr))
+            };
+            self.proof.rounding = match (self.proof.rounding, bound(*a), bound(*b)) {
+                (Some(worst), Some(a), Some(b)) => Some(worst.max(a + b)),
+                _ => None,
+            };
+        }
+        Ok(())
+    }
+
+    /// The plan, step by step, with the discipline of fetching checked.
+    fn run(&self, machine: &mut Machine<'_>, state: usize, turn: Option<&Turn>) -> Result<Run, String> {
+        let plan = self.plan;
+        let view = turn.map_or(View::PLAIN, Turn::view);
+        let entry = plan.lookup.get(state).map(|entry| usize::from(*entry));
+        let no_way = "the plan's lookup has no way for this state";
+        // In the plan's own terms, and those that stand behind them.
+        let (mut fetched, mut sources) = (InputSet::default(), InputSet::default());
+        let mut at: StepId = plan.root();
+        loop {
+            match plan.step(at) {
+                Step::Switch { arms } => at = *entry.and_then(|arm| arms.get(arm)).ok_or(no_way)?,
+                Step::Orbit { arms } => {
+                    turn.ok_or("a symmetry does not apply in this state")?;
+                    let arm = entry.map(|entry| entry >> plan.symmetries.len());
+                    at = *arm.and_then(|arm| arms.get(arm)).ok_or(no_way)?;
+                }
+                Step::Coefficients { rest } => {
+                    let entry = entry.ok_or(no_way)?;
+                    if let Some(fit) = plan.coefficients.fits.get(entry) {
+                        let pieces = fit.pieces.iter();
+                        let values = pieces.map(|piece| plan.coefficients.value(machine.pool(), piece)).collect();
+                        return Ok(Run { row: fit.row, line: fit.line, values, fetched: sources });
+                    }
+                    at = *rest.get(entry - plan.coefficients.fits.len()).ok_or(no_way)?;
+                }
+                Step::Test { condition, then, other } => {
+                    self.only_fetched(plan.pool.cond_facts(*condition).inputs, fetched)?;
+                    at = if machine.holds(*condition, view) { *then } else { *other };
+                }
+                Step::Fetch { input, next } => {
+                    let behind = turn.map_or(InputSet::one(*input), |turn| turn.sources(&plan.pool, *input));
+                    if !behind.and(sources).is_empty() || !plan.program.fetched.contains(*input) {
+                        return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
+                    }
+                    sources = sources.or(behind);
+                    fetched = fetched.or(InputSet::one(*input));
+                    at = *next;
+                }
+                Step::Leaf(leaf) => {
+                    for value in &leaf.values {
+                        self.only_fetched(plan.pool.expr_facts(*value).inputs, fetched)?;
+                    }
+                    let values = match turn {
+                        Some(turn) => turn.back(machine, &leaf.values),
+                        None => leaf.values.iter().map(|value| machine.resolve(*value, view)).collect(),
+                    };
+                    return Ok(Run { row: leaf.row, line: leaf.line, values, fetched: sources });
+                }
+            }
+        }
+    }
+
+    fn only_fetched(&self, inputs: InputSet, fetched: InputSet) -> Result<(), String> {
+        let program = self.plan.program;
+        match inputs.and(program.fetched).minus(fetched).iter().next() {
+            None => Ok(()),
+            Some(input) => Err(format!("the plan uses `{}` without fetching it", program.inputs[input.index()].name)),
+        }
+    }
+}

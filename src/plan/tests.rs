@@ -1,0 +1,320 @@
+//! Random tables × all plans: what is planned is proved, what is proved gives
+//! what the interpreter gives, and what is changed afterwards is refused.
+
+use super::*;
+use crate::diag::Source;
+use crate::eval::Interpreter;
+use crate::program::{Domain, InputSet, LevelTerm, Node, Real, Value};
+use crate::table::Table;
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, count: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ z >> 31) % count as u64) as usize
+    }
+
+    fn pick<'a>(&mut self, list: &[&'a str]) -> &'a str {
+        list[self.below(list.len())]
+    }
+}
+
+const SIDES: [&str; 4] = ["none", "left", "right", "both"];
+const KINDS: [&str; 3] = ["thin", "long", "open"];
+
+/// A table with inputs of every kind, guards that overlap, and a mirror that
+/// some of its cases come from.
+fn table(random: &mut Random) -> String {
+    let cases = 3 + random.below(5);
+    let mut text = String::from(
+        r#"Table(language: 1, name: "t", hit_policy: First,
+            inputs: {
+                "side": Levels(values: {"none": 0, "left": 1, "right": 2, "both": 3}),
+                "kind": Levels(values: {"thin": 0, "long": 1, "open": 2}),
+                "flag": Bool(), "near": Bool(),
+                "x": Range(from: 0, to: 1), "y": Range(from: -1, to: 2),
+                "far": Levels(of: "side", fetched: (cost: 2)),
+            },
+            symmetries: {
+                "mirror": Symmetry(map: {"side": {"left": "right", "right": "left"},
+                    "far": {"left": "right", "right": "left"}, "x": "1 - x"}),
+                "turn": Symmetry(map: {"flag": "!flag"}, result: "1 - value"),
+            },
+            assume: {"a": "side != both || !near", "b": "kind != thin || x <= 0.5"},
+            output: Number(clamp: (0, 1)),
+            cases: ["#,
+    );
+    for id in 1..=cases {
+        if id > 1 && id % 3 == 0 {
+            text += &format!("Case(id: {id}, is: (case: {}, under: \"mirror\")),\n", id - 1);
+            continue;
+        }
+        let guard = guard(random, 2);
+        match random.below(3) {
+            0 => {
+                let (first, second) = (value(random, 2), value(random, 1));
+                let condition = if random.below(2) == 0 { "far == left" } else { "side == left" };
+                text += &format!(
+                    "Case(id: {id}, when: \"{guard}\", lines: [(\"{first}\", \"{condition}\"), \"{second}\"]),\n"
+                );
+            }
+            _ => text += &format!("Case(id: {id}, when: \"{guard}\", value: \"{}\"),\n", value(random, 2)),
+        }
+    }
+    text + "], default: 0.5)"
+}
+
+fn guard(random: &mut Random, depth: usize) -> String {
+    match random.below(if depth == 0 { 4 } else { 7 }) {
+        0 => format!("side == {}", random.pick(&SIDES)),
+        1 => format!("kind != {}", random.pick(&KINDS)),
+        2 => random.pick(&["flag", "!near", "near", "side in {left, right}"]).to_owned(),
+        3 => random.pick(&["flag", "kind == open", "x < 0.5"]).to_owned(),
+        4 => format!("({} || {})", guard(random, depth - 1), guard(random, depth - 1)),
+        _ => format!("({} && {})", guard(random, depth - 1), guard(random, depth - 1)),
+    }
+}
+
+fn value(random: &mut Random, depth: usize) -> String {
+    match random.below(if depth == 0 { 3 } else { 7 }) {
+        0 => random.pick(&["x", "y", "1 - x", "0.25", "1 + x - y"]).to_owned(),
+        1 => format!("{} * x - 0.5", 1 + random.below(3)),
+        2 => random.pick(&["2 - x - y", "y - x", "0.5 * y"]).to_owned(),
+        3 => format!("min({}, {})", value(random, depth - 1), value(random, depth - 1)),
+        4 => format!("max({}, {})", value(random, depth - 1), value(random, depth - 1)),
+        5 => format!("if side == left {{ {} }} else {{ {} }}", value(random, depth - 1), value(random, depth - 1)),
+        _ => format!("({}) * 0.5", value(random, depth - 1)),
+    }
+}
+
+fn program(text: &str) -> Program {
+    let table = Table::parse(Source::new("test.ron", text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    Program::check(&table).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Carries out a plan, one step after the other, in `f32`.
+struct Executor<'a, 'p> {
+    plan: &'a Plan<'p>,
+    /// The program with the terms of the plan.
+    program: Program,
+}
+
+impl<'a, 'p> Executor<'a, 'p> {
+    fn new(plan: &'a Plan<'p>) -> Self {
+        let mut program = plan.program.clone();
+        program.pool = plan.pool.clone();
+        Self { plan, program }
+    }
+
+    /// The row, the values, and what was fetched, in the terms of the plan.
+    fn run(&self, point: &[Option<Value>]) -> (Option<usize>, Vec<f32>, InputSet) {
+        let plan = self.plan;
+        let level = |point: &[Option<Value>], input: InputId| match point[input.index()] {
+            Some(Value::Level(level)) => level,
+            _ => 0,
+        };
+        let state = plan.program.states.index(|input| level(point, input));
+        let entry = plan.lookup.get(state).map_or(0, |entry| usize::from(*entry));
+        let mut point = point.to_vec();
+        let mut results = Vec::new();
+        let mut fetched = InputSet::default();
+        let mut at = plan.root();
+        loop {
+            let mut interpreter = Interpreter::<f32>::new(&self.program);
+            interpreter.place(&point).expect("all inputs are given");
+            match plan.step(at) {
+                Step::Switch { arms } => at = arms[entry],
+                Step::Coefficients { rest } => match plan.coefficients.fits.get(entry) {
+                    Some(fit) => {
+                        let mut with_value = self.program.clone();
+                        let pieces = fit.pieces.iter();
+                        let values: Vec<ExprId> =
+                            pieces.map(|piece| plan.coefficients.value(&mut with_value.pool, piece)).collect();
+                        let mut interpreter = Interpreter::<f32>::new(&with_value);
+                        interpreter.place(&point).expect("all inputs are given");
+                        let values = values.iter().map(|v| interpreter.number(*v).expect("given")).collect();
+                        return (fit.row, values, fetched);
+                    }
+                    None => at = rest[entry - plan.coefficients.fits.len()],
+                },
+                Step::Orbit { arms } => {
+                    for (_, index) in plan.symmetries.iter().enumerate().filter(|(bit, _)| entry >> bit & 1 == 1) {
+                        let symmetry = &self.program.symmetries[*index];
+                        let mut interpreter = Interpreter::<f32>::new(&self.program);
+                        interpreter.place(&point).expect("all inputs are given");
+                        let mut next = point.clone();
+                        for (input, image) in &symmetry.levels {
+                            next[input.index()] = Some(Value::Level(self.image(image, &mut interpreter, &point)));
+                        }
+                        for (input, image) in &symmetry.numbers {
+                            let number = interpreter.number(*image).expect("given");
+                            next[input.index()] = Some(Value::Number(f64::from(number)));
+                        }
+                        point = next;
+                        results.splice(0..0, symmetry.result);
+                    }
+                    at = arms[entry >> plan.symmetries.len()];
+                }
+                Step::Test { condition, then, other } => {
+                    at = if interpreter.holds(*condition).expect("given") { *then } else { *other };
+                }
+                Step::Fetch { input, next } => {
+                    assert!(!fetched.contains(*input), "fetched twice");
+                    fetched = fetched.or(InputSet::one(*input));
+                    at = *next;
+                }
+                Step::Leaf(leaf) => {
+                    let values = leaf.values.iter().map(|value| {
+                        let value = interpreter.number(*value).expect("given");
+                        results.iter().fold(value, |value, map| self.result(*map, value))
+                    });
+                    return (leaf.row, values.collect(), fetched);
+                }
+            }
+        }
+    }
+
+    fn image(&self, term: &LevelTerm, interpreter: &mut Interpreter<'_, f32>, point: &[Option<Value>]) -> u8 {
+        match term {
+            LevelTerm::Const(level) => *level,
+            LevelTerm::Input(input) => match point[input.index()] {
+                Some(Value::Level(level)) => level,
+                _ => 0,
+            },
+            LevelTerm::If(condition, then, other) => match interpreter.holds(*condition).expect("given") {
+                true => self.image(then, interpreter, point),
+                false => self.image(other, interpreter, point),
+            },
+            LevelTerm::Map(inner, renaming) => renaming[usize::from(self.image(inner, interpreter, point))],
+        }
+    }
+
+    /// The result map of a symmetry.
+    fn result(&self, map: ExprId, value: f32) -> f32 {
+        match self.program.pool.node(map) {
+            Node::Const(number) => number.get() as f32,
+            Node::Result => value,
+            Node::Binary(op, a, b) => f32::binary(op, self.result(a, value), self.result(b, value)),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+fn point(random: &mut Random, program: &Program, state: usize) -> Vec<Option<Value>> {
+    let mut levels = vec![0; program.inputs.len()];
+    program.states.write(state, &mut levels);
+    let values = program.input_ids().map(|(id, input)| match (&input.domain, input.fetched) {
+        (Domain::Discrete(_), None) => Value::Level(levels[id.index()]),
+        (Domain::Discrete(known), Some(_)) => Value::Level(random.below(known.count()) as u8),
+        (Domain::Continuous { lo, hi, .. }, _) => {
+            Value::Number(f64::from((lo + (hi - lo) * random.below(10_000) as f64 / 9_999.0) as f32))
+        }
+    });
+    values.map(Some).collect()
+}
+
+#[test]
+fn every_plan_of_random_tables_is_proved_and_right() {
+    let mut random = Random(7);
+    let mut planned = [0; Shape::ALL.len()];
+    for round in 0..120 {
+        let text = table(&mut random);
+        let program = program(&text);
+        let weights = (0..program.states.count()).map(|_| random.below(5) as f64).collect();
+        let weights = Weights::new(&program, weights, "a test").unwrap_or_else(|e| panic!("{e}"));
+        let assume = round % 3 == 0;
+        let points: Vec<_> = (0..program.states.count())
+            .flat_map(|state| [state, state])
+            .map(|state| point(&mut random, &program, state))
+            .collect();
+        for (number, shape) in Shape::ALL.into_iter().enumerate() {
+            let options = PlanOptions { shape, weights: Some(&weights), assume };
+            let proved = match Plan::proved(&program, options) {
+                Ok(proved) => proved,
+                Err(failure) if is_unsuitable(&failure) => continue,
+                Err(failure) => panic!("{shape}: {failure}\n{text}"),
+            };
+            planned[number] += 1;
+            let plan = proved.plan();
+            let executor = Executor::new(plan);
+            let mut interpreter = Interpreter::<f32>::new(&program);
+            for point in &points {
+                interpreter.place(point).unwrap_or_else(|e| panic!("{e:?}"));
+                let holds = |interpreter: &mut Interpreter<'_, f32>| {
+                    let mut all = program.assumptions.iter();
+                    all.all(|assumption| interpreter.holds(assumption.condition).unwrap_or(false))
+                };
+                if assume && !holds(&mut interpreter) {
+                    continue;
+                }
+                let want = interpreter.evaluate(point).unwrap_or_else(|e| panic!("{e:?}"));
+                let (row, values, fetched) = executor.run(point);
+                let at = format!("{shape} at {point:?}\n{text}");
+                assert!(!shape.reports_case() || row == want.row, "{row:?}, not {:?}: {at}", want.row);
+                assert!(fetched.minus(want.fetched).is_empty(), "{at}");
+                let same = proved.proof().identical == proved.proof().paths;
+                let slack = if same { 0.0 } else { 1e-5 };
+                assert!((values[0] - want.values[0]).abs() <= slack, "{values:?}, not {:?}: {at}", want.values);
+            }
+        }
+    }
+    assert!(planned.iter().all(|count| *count >= 30), "{planned:?}");
+}
+
+/// One coefficient, one entry of the lookup, one leaf, one order.
+#[test]
+fn changed_plans_of_random_tables_are_refused() {
+    let mut random = Random(11);
+    let mut refused = [0; 4];
+    for _ in 0..40 {
+        let program = program(&table(&mut random));
+        if let Ok(plan) = Plan::new(&program, Shape::Coefficients) {
+            // Each set of coefficients is used by some state, and the clamp hides few changes.
+            let mut broken = plan.clone();
+            let fit = random.below(broken.coefficients.fits.len());
+            for form in &mut broken.coefficients.fits[fit].pieces[0].forms {
+                form.constant += 0.125;
+            }
+            let before = refused[0];
+            refused[0] += usize::from(broken.prove().is_err());
+            if refused[0] == before {
+                let value =
+                    plan.coefficients.fits[fit].pieces[0].forms.iter().all(|f| f.factors.iter().all(|f| *f == 0.0));
+                assert!(value, "only a constant beyond the clamp may be changed");
+            }
+        }
+        if let Ok(plan) = Plan::new(&program, Shape::Orbit) {
+            for state in 0..plan.lookup.len() {
+                let mut broken = plan.clone();
+                // Another symmetry, so that inputs or result come out otherwise.
+                broken.lookup[state] ^= 2;
+                refused[1] += usize::from(broken.prove().is_err());
+            }
+        }
+        for shape in [Shape::Ordered, Shape::Nested, Shape::Tree] {
+            let Ok(plan) = Plan::new(&program, shape) else { continue };
+            for step in plan.reachable() {
+                let mut broken = plan.clone();
+                let place = step.0 as usize;
+                match broken.steps[place].clone() {
+                    Step::Leaf(leaf) => {
+                        let wrong = broken.pool.number(0.437_5);
+                        broken.steps[place] = Step::Leaf(Leaf { values: vec![wrong], ..leaf });
+                        refused[2] += usize::from(broken.prove().is_err());
+                    }
+                    Step::Test { condition, then, other } if then != other => {
+                        broken.steps[place] = Step::Test { condition, then: other, other: then };
+                        refused[3] += usize::from(broken.prove().is_err());
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+    assert!(refused.iter().all(|count| *count > 20), "{refused:?}");
+}
