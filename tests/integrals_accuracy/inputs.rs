@@ -82,8 +82,8 @@ pub(crate) fn cell(random: &mut Random) -> Cell {
     loop {
         let width = match random.pick(&[0, 1, 1, 1, 2]) {
             0 => 0.0,
-            1 => random.by_size(1e-4, 1.57),
-            _ => random.between(0.1, 1.57),
+            1 => random.by_size(1e-4, 1.55),
+            _ => random.between(0.1, 1.55),
         };
         let phi0 = random.between(0.0, 6.25 - width) as f32;
         let phi1 = (f64::from(phi0) + width) as f32;

@@ -78,7 +78,7 @@ impl Errors {
 const C: [&str; 6] = ["C0", "C1", "C2", "C3", "C4", "C5"];
 
 fn c_input(random: &mut Random) -> [f32; 6] {
-    let width = random.pick(&[0.0, 1.0, 1.0, 1.0]) * random.by_size(1e-4, 1.57);
+    let width = random.pick(&[0.0, 1.0, 1.0, 1.0]) * random.by_size(1e-4, 1.55);
     let phi0 = random.between(-1.0, 6.25 - width) as f32;
     let phi1 = (f64::from(phi0) + width) as f32;
     let s = match random.pick(&[0, 1]) {
