@@ -260,6 +260,7 @@ fn functions_that_are_none() {
         ("a function calls itself", with(r#""a(t)": "b(t)", "b(t)": "1 + a(t)""#, "a(x)")),
         ("by way of a public one", r#"functions: {"g": Function(parameters: ["x"], value: "g(x = x / 2)")}"#.to_owned()),
         ("wrong arity", with(r#""a(t)": "t""#, "a(x, 1)")),
+        ("no arity", with(r#""a()": "1""#, "a(x)")),
         ("unknown function", of("sine(x)")),
         ("unknown helper", with(r#""sinc(t)": "t""#, "sinq(x)")),
         ("unknown parameter", with(r#""a(t)": "t""#, "a(u = x)")),

@@ -118,11 +118,11 @@ mod tests {
         assert_eq!(
             found,
             [
-                "U0503 no case claims 2 of the 4 states; they get the default",
                 "U0505 the input `spare` is never used",
                 "U0505 the input `f` is never used",
                 "U0505 the name `lost` is never used",
                 "U0505 the name `also_lost` is never used",
+                "U0503 no case claims 2 of the 4 states; they get the default",
             ]
         );
     }

@@ -373,8 +373,8 @@ mod tests {
         let program = rsmss();
         let row = program.rows.iter().position(|row| row.id == 19).unwrap();
         let found = reach(&program, row);
-        // The corner itself and the two dominances.
-        assert_eq!(found.smallest.unwrap().deviations, 4);
+        // The corner itself, the two dominances, and the positions that I4_p and I4_q ask for there.
+        assert_eq!(found.smallest.unwrap().deviations, 6);
         assert!(found.exact);
         assert_eq!(found.states.len(), 2 * 2 * 2 * 2, "dual negative corners are case 1");
     }
