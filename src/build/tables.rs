@@ -146,6 +146,7 @@ impl Tables {
             if self.path.is_dir() && table.exhibit.is_some() {
                 continue;
             }
+            watch_imports(&table);
             let programs = Program::check_all(&table)?;
             for program in &programs {
                 warn(program)?;
@@ -176,6 +177,14 @@ fn warn(program: &Program) -> Result<(), Failure> {
         println!("cargo::warning={}{place}: {} [{}]", program.source.name, finding.message, finding.code);
     }
     Ok(())
+}
+
+/// Has Cargo watch what a table imports, which may lie elsewhere.
+fn watch_imports(table: &Table) {
+    for imported in table.imports.iter().filter_map(|import| import.table.as_deref()) {
+        watch(Path::new(&imported.source.name));
+        watch_imports(imported);
+    }
 }
 
 fn watch(path: &Path) {
