@@ -1,38 +1,37 @@
-//! `generated/` is exactly what the compiler makes of `tables/`.
+//! `generated/` is exactly what `umbrage build` makes of `tables/`, with the
+//! profiles and the tuned choices beside them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use umbrage::build;
-use umbrage::program::Program;
-
-fn on_disk(directory: &Path, root: &Path, found: &mut BTreeMap<PathBuf, Vec<u8>>) {
-    for entry in std::fs::read_dir(directory).expect("`generated/` is there") {
-        let path = entry.expect("readable").path();
-        if path.is_dir() {
-            on_disk(&path, root, found);
-        } else if !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("functions.")) {
-            let relative = path.strip_prefix(root).expect("below").to_owned();
-            found.insert(relative, std::fs::read(&path).expect("readable"));
+/// The files below a directory, except functions: what they compile to is too
+/// large to be checked in.
+fn files(directory: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    let mut pending = vec![directory.to_owned()];
+    while let Some(next) = pending.pop() {
+        for entry in std::fs::read_dir(&next).unwrap_or_else(|e| panic!("{}: {e}", next.display())) {
+            let path = entry.expect("readable").path();
+            if path.is_dir() {
+                pending.push(path);
+            } else if !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("functions.")) {
+                let relative = path.strip_prefix(directory).expect("below").to_owned();
+                found.insert(relative, std::fs::read(&path).expect("readable"));
+            }
         }
     }
+    found
 }
 
 #[test]
 fn generated_files_are_up_to_date() {
-    let mut expected = BTreeMap::new();
-    for path in build::find_tables(Path::new("tables")).unwrap_or_else(|e| panic!("{e}")) {
-        let programs = Program::read_all(&path).unwrap_or_else(|e| panic!("{e}"));
-        // What functions compile to is too large to be checked in.
-        let [program] = programs.as_slice() else { continue };
-        if program.exhibit.is_some() || program.function.is_some() {
-            continue;
-        }
-        let built = build::table(program, &build::Options::default()).unwrap_or_else(|e| panic!("{e}"));
-        expected.extend(built.files.into_iter().map(|file| (file.path, file.contents)));
-    }
-    let mut found = BTreeMap::new();
-    on_disk(Path::new("generated"), Path::new("generated"), &mut found);
+    let output = tempfile::tempdir().expect("a directory");
+    let mut build = Command::new(env!("CARGO_BIN_EXE_umbrage"));
+    build.current_dir(env!("CARGO_MANIFEST_DIR")).arg("build").arg("--output").arg(output.path());
+    let run = build.output().expect("runs");
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let (expected, found) = (files(output.path()), files(Path::new("generated")));
     assert_eq!(
         found.keys().collect::<Vec<_>>(),
         expected.keys().collect::<Vec<_>>(),
@@ -40,5 +39,11 @@ fn generated_files_are_up_to_date() {
     );
     for (path, contents) in &expected {
         assert!(found[path] == *contents, "{} is out of date: run `cargo run --release -- build`", path.display());
+    }
+    for table in ["smsr", "rsmss"] {
+        let ordered = String::from_utf8_lossy(&expected[&Path::new(table).join("ordered.wgsl")]).into_owned();
+        for line in ["// Plan:   ordered", &format!("// Weight: profile {table}.ron, "), "// Cost:   ", "// Proof:  "] {
+            assert!(ordered.contains(line), "{table}: {line}");
+        }
     }
 }

@@ -3,15 +3,17 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
+use super::plan::{self, PlanArgument};
 use super::report::{Format, Report};
-use super::{Outcome, Result, levels, parse_shape, parse_target};
+use super::{Outcome, Result, levels, parse_target};
 use crate::analyse::Levels;
-use crate::build::{self, Built, Options};
+use crate::build::{self, Built, NamedProfile, Options};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::emit::Target;
-use crate::plan::Shape;
+use crate::profile;
 use crate::program::Program;
 use crate::table::Table;
+use crate::tuned::slug;
 
 /// Arguments of `umbrage build`.
 #[derive(clap::Args)]
@@ -22,9 +24,20 @@ pub(super) struct Arguments {
     /// Directory for the generated files, one folder per table
     #[arg(long, short, value_name = "DIR", default_value = "generated")]
     output: PathBuf,
-    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit [default: ladder,switch]
-    #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
-    plan: Vec<Shape>,
+    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit; and auto, what
+    /// `umbrage tune` chose, or else switch, or ladder where the key is too large [default: ladder,ordered,switch,auto]
+    #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = plan::parse_plan)]
+    plan: Vec<PlanArgument>,
+    /// Profiles to plan for, each for the table that it counts [default: profiles/TABLE.ron beside the directory of
+    /// the tables, if there is one]
+    #[arg(long, value_name = "FILE", value_delimiter = ',')]
+    profile: Vec<PathBuf>,
+    /// Directory of what `umbrage tune` chose, for auto [default: tuned beside the directory of the tables]
+    #[arg(long, value_name = "DIR")]
+    tuned: Option<PathBuf>,
+    /// For auto, only what was chosen on this device [default: on any]
+    #[arg(long, value_name = "NAME")]
+    device: Option<String>,
     /// Let plans do anything where the table's assumptions do not hold
     #[arg(long)]
     assume: bool,
@@ -39,20 +52,32 @@ pub(super) struct Arguments {
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut options = Options { assume: arguments.assume, ..Options::default() };
     if !arguments.plan.is_empty() {
-        options.shapes.clone_from(&arguments.plan);
+        (options.shapes, options.auto) = plan::split(&arguments.plan);
     }
     if !arguments.target.is_empty() {
         options.targets.clone_from(&arguments.target);
     }
+    let given: Vec<NamedProfile> = arguments
+        .profile
+        .iter()
+        .map(|path| Ok((path.clone(), profile::read(path)?)))
+        .collect::<std::result::Result<_, Failure>>()?;
     let levels = arguments.levels.levels();
     let mut done: Vec<(Vec<Program>, Built)> = Vec::new();
     let mut outcome = Outcome::Clean;
     for path in &arguments.paths {
+        let evidence = Evidence { given: &given, profiles: build::beside(path, "profiles") };
+        if options.auto {
+            let directory = arguments.tuned.clone().or_else(|| build::beside(path, "tuned"));
+            options.tuned = directory.map_or(Ok(Vec::new()), |directory| build::tuned_in(&directory))?;
+            let device = arguments.device.as_deref().map(slug);
+            options.tuned.retain(|tuned| device.as_ref().is_none_or(|device| slug(&tuned.device) == *device));
+        }
         for file in build::find_tables(path)? {
             // An exhibit is built only if it was named.
             let result = Table::read(&file).and_then(|table| match path.is_dir() && table.exhibit.is_some() {
                 true => Ok(None),
-                false => one(&table, &options, &levels, report, &done).map(Some),
+                false => one(&table, &evidence, &mut options, &levels, report, &done).map(Some),
             });
             match result {
                 Ok(None) => {}
@@ -70,6 +95,13 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     if outcome == Outcome::Failed {
         return Ok(outcome);
     }
+    for (path, profile) in &given {
+        if !done.iter().any(|(_, built)| built.table == profile.table) {
+            let message = format!("is a profile of the table `{}`, which is not among those built", profile.table);
+            let error = Diagnostic::error(codes::OTHER_PROFILE, message).help("name its table, too, or leave it out");
+            return Err(Failure::bare(path.to_string_lossy().replace('\\', "/"), error).into());
+        }
+    }
     let files: Vec<_> = done.iter().flat_map(|(_, built)| built.files.iter().cloned()).collect();
     let written = build::write(&arguments.output, &files)?;
     if report.format == Format::Human {
@@ -78,9 +110,27 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     Ok(outcome)
 }
 
+/// Where the profiles of tables are.
+struct Evidence<'a> {
+    given: &'a [NamedProfile],
+    profiles: Option<PathBuf>,
+}
+
+impl Evidence<'_> {
+    /// The profiles of a table: those given, or else the one that lies beside it.
+    fn of(&self, table: &str) -> std::result::Result<Vec<NamedProfile>, Failure> {
+        let given: Vec<_> = self.given.iter().filter(|(_, profile)| profile.table == table).cloned().collect();
+        match &self.profiles {
+            Some(directory) if given.is_empty() => Ok(build::profile_of(table, directory)?.into_iter().collect()),
+            _ => Ok(given),
+        }
+    }
+}
+
 fn one(
     table: &Table,
-    options: &Options,
+    evidence: &Evidence<'_>,
+    options: &mut Options,
     levels: &Levels,
     report: &Report,
     done: &[(Vec<Program>, Built)],
@@ -100,11 +150,17 @@ fn one(
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
         return Err(Failure { source, diagnostics: findings });
     }
-    let found = match findings.iter().any(|finding| finding.severity == Severity::Warning) {
+    let mut found = match findings.iter().any(|finding| finding.severity == Severity::Warning) {
         true => Outcome::Findings,
         false => Outcome::Clean,
     };
     report.show(&source, &findings);
+    for program in programs.iter().filter(|program| program.function.is_none()) {
+        for warning in build::weigh(program, &evidence.of(&program.name)?, options)? {
+            report.failure(&Failure::bare("", warning));
+            found = Outcome::Findings;
+        }
+    }
     let built = build::programs(&programs, options)?;
     Ok(((programs, built), found))
 }
@@ -132,12 +188,16 @@ fn summary(
                 program.examples.len()
             )?;
         }
-        for (shape, proof) in &built.plans {
-            writeln!(out, "  {:<14} proved {proof}", shape.name())?;
+        for plan in &built.plans {
+            let chosen = match plan.chosen_on.as_slice() {
+                [] => String::new(),
+                devices => format!("; chosen on {}", devices.join(", ")),
+            };
+            writeln!(out, "  {:<14} proved {}{chosen}", plan.name, plan.proof)?;
         }
-        for (shape, reason) in &built.skipped {
+        for (name, reason) in &built.skipped {
             let why = reason.diagnostics.iter().flat_map(|d| &d.notes).next().map_or("", String::as_str);
-            writeln!(out, "  {:<14} left out: {why}", shape.name())?;
+            writeln!(out, "  {:<14} left out: {why}", name)?;
         }
     }
     let targets: Vec<&str> = options.targets.iter().map(|target| target.name()).collect();

@@ -1,19 +1,20 @@
 //! `umbrage diff`: every plan on a GPU against the interpreter.
 
 use std::io::{self, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
+use super::plan::{self, PlanArgument};
 use super::report::{Format, Report};
-use super::{Outcome, Result, columns, parse_shape};
+use super::{Outcome, Result, columns};
 use crate::build;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff::{self, Options};
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::plan::Shape;
 use crate::program::Program;
+use crate::tuned::{Auto, Tuned};
 
 /// Arguments of `umbrage diff`.
 #[derive(clap::Args)]
@@ -24,9 +25,13 @@ pub(super) struct Arguments {
     /// The adapter: any, software, hardware, or a part of its name
     #[arg(long, value_name = "WHICH", default_value = "any")]
     adapter: AdapterChoice,
-    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit [default: all]
-    #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = parse_shape)]
-    plan: Vec<Shape>,
+    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit; and auto, what
+    /// `umbrage tune` chose on this device, or else switch, or ladder where the key is too large [default: all shapes]
+    #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = plan::parse_plan)]
+    plan: Vec<PlanArgument>,
+    /// Directory of what `umbrage tune` chose, for auto [default: tuned beside the directory of the tables]
+    #[arg(long, value_name = "DIR")]
+    tuned: Option<PathBuf>,
     /// Let plans do anything where the table's assumptions do not hold, and compare where they do
     #[arg(long)]
     assume: bool,
@@ -46,16 +51,19 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut options = Options { assume: arguments.assume, ..Options::default() };
     options.effort.grid = arguments.grid;
     options.effort.random = arguments.random;
+    let (named, auto) = plan::split(&arguments.plan);
     if !arguments.plan.is_empty() {
-        options.shapes.clone_from(&arguments.plan);
+        options.shapes = named;
     }
     let mut programs = Vec::new();
+    let mut tuned = Vec::new();
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
             let found = Program::read_all(&file)?;
             // An exhibit is compared only if it was named.
             programs.extend(found.into_iter().filter(|program| !path.is_dir() || program.exhibit.is_none()));
         }
+        tuned.resize(programs.len(), arguments.tuned.clone().or_else(|| build::beside(path, "tuned")));
     }
     let frames = match (arguments.frames.as_slice(), programs.as_slice()) {
         ([], _) => None,
@@ -75,7 +83,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         writeln!(out, "adapter: {}", gpu.describe())?;
     }
     let mut outcome = Outcome::Clean;
-    for program in &programs {
+    for (program, tuned) in programs.iter().zip(&tuned) {
+        let options = if auto { with_auto(program, &gpu, tuned.as_deref(), &options)? } else { options.clone() };
         let bar = progress(program);
         let result = match &frames {
             None => diff::table(program, &gpu, &options, |state| bar.set_position(state as u64)),
@@ -93,6 +102,24 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     out.flush()?;
     Ok(outcome)
+}
+
+/// What `auto` stands for on this device, besides the plans that are named. If
+/// it relies on assumptions, so do they: all are compared at the same points.
+fn with_auto(
+    program: &Program,
+    gpu: &Gpu,
+    tuned: Option<&Path>,
+    options: &Options,
+) -> std::result::Result<Options, Failure> {
+    let tuned = tuned.map_or(Ok(None), |directory| Tuned::read(&Tuned::path(directory, gpu.name())))?;
+    let auto = Auto::of(program, tuned.as_ref());
+    let mut options = options.clone();
+    if !options.shapes.contains(&auto.shape) {
+        options.shapes.push(auto.shape);
+    }
+    options.assume |= auto.assume;
+    Ok(options)
 }
 
 fn progress(program: &Program) -> ProgressBar {

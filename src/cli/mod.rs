@@ -25,6 +25,7 @@ mod levels;
 #[cfg(all(feature = "render", feature = "report"))]
 mod light;
 mod output;
+mod plan;
 mod profile;
 mod profiled;
 #[cfg(feature = "render")]

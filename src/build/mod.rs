@@ -5,6 +5,9 @@
 //! of the run was checked, proved, emitted and validated, each through a
 //! temporary file beside its place, so that a failure leaves nothing behind.
 
+mod evidence;
+mod tables;
+
 use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -14,6 +17,10 @@ use crate::emit::{self, Target};
 use crate::plan::{LookupPlace, Plan, PlanOptions, Proof, Shape, Weights, is_unsuitable};
 use crate::program::Program;
 use crate::table::io_reason;
+use crate::tuned::{Auto, Tuned};
+
+pub use evidence::{NamedProfile, beside, profile_of, tuned_in, weigh};
+pub use tables::Tables;
 
 /// What to make of each table.
 #[derive(Debug, Clone)]
@@ -22,18 +29,26 @@ pub struct Options {
     pub shapes: Vec<Shape>,
     /// The languages.
     pub targets: Vec<Target>,
+    /// Whether to make, too, what was tuned, or else the default of [`Auto`].
+    pub auto: bool,
+    /// What was tuned, on each device.
+    pub tuned: Vec<Tuned>,
     /// Whether plans may do anything where a table's assumptions do not hold.
+    /// A tuned plan does as it was tuned.
     pub assume: bool,
     /// How often the states of each table occur, by its name.
     pub weights: BTreeMap<String, Weights>,
 }
 
 impl Default for Options {
-    /// The plans whose code stands alone, in every language.
+    /// The table as written, the published technique, what does best on most
+    /// graphics processors, and what was tuned; in every language.
     fn default() -> Self {
         Self {
-            shapes: vec![Shape::Ladder, Shape::Switch(LookupPlace::Constants)],
+            shapes: vec![Shape::Ladder, Shape::Ordered, Shape::Switch(LookupPlace::Constants)],
             targets: Target::ALL.to_vec(),
+            auto: true,
+            tuned: Vec::new(),
             assume: false,
             weights: BTreeMap::new(),
         }
@@ -54,12 +69,59 @@ pub struct Artifact {
 pub struct Built {
     /// Name of the table.
     pub table: String,
-    /// The plans, with their proofs.
-    pub plans: Vec<(Shape, Proof)>,
-    /// The plans that do not suit the table, with the reason.
-    pub skipped: Vec<(Shape, Failure)>,
+    /// The plans.
+    pub plans: Vec<BuiltPlan>,
+    /// The plans that do not suit the table, by name, with the reason.
+    pub skipped: Vec<(String, Failure)>,
     /// The files.
     pub files: Vec<Artifact>,
+}
+
+/// A plan that was proved and emitted.
+#[derive(Debug, Clone)]
+pub struct BuiltPlan {
+    /// The name of its files.
+    pub name: String,
+    /// What the proof found.
+    pub proof: Proof,
+    /// The devices on which it was chosen.
+    pub chosen_on: Vec<String>,
+}
+
+/// A plan to make.
+struct Wanted {
+    shape: Shape,
+    assume: bool,
+    chosen_on: Vec<String>,
+}
+
+impl Wanted {
+    fn name(&self) -> String {
+        if self.assume { format!("{}_assuming", self.shape) } else { self.shape.to_string() }
+    }
+}
+
+/// The plans to make of a table, each once.
+fn wanted(program: &Program, options: &Options) -> Vec<Wanted> {
+    let named = options.shapes.iter().map(|shape| (*shape, options.assume, None));
+    let mut all: Vec<(Shape, bool, Option<&str>)> = named.collect();
+    if options.auto {
+        let tuned = options.tuned.iter().map(|tuned| (Auto::of(program, Some(tuned)), tuned.device.as_str()));
+        let tuned: Vec<_> = tuned.filter(|(auto, _)| auto.tuned).collect();
+        if tuned.is_empty() {
+            all.push((Auto::of(program, None).shape, options.assume, None));
+        }
+        all.extend(tuned.into_iter().map(|(auto, device)| (auto.shape, auto.assume, Some(device))));
+    }
+    let mut wanted: Vec<Wanted> = Vec::new();
+    for (shape, assume, device) in all {
+        let device = device.map(str::to_owned);
+        match wanted.iter_mut().find(|plan| plan.shape == shape && plan.assume == assume) {
+            Some(plan) => plan.chosen_on.extend(device),
+            None => wanted.push(Wanted { shape, assume, chosen_on: device.into_iter().collect() }),
+        }
+    }
+    wanted
 }
 
 /// Proves, emits and validates what [`Program::read_all`] reads from a table
@@ -83,7 +145,9 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
         let path = Path::new(&built.table).join(format!("functions.{}", target.extension()));
         built.files.push(Artifact { path, contents: emit::emit_all(&proved, *target)? });
     }
-    built.plans.extend(proved.iter().map(|p| p.proof().clone()).reduce(Proof::and).map(|proof| (Shape::Ladder, proof)));
+    let proof = proved.iter().map(|proved| proved.proof().clone()).reduce(Proof::and);
+    let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new() };
+    built.plans.extend(proof.map(plan));
     Ok(built)
 }
 
@@ -93,19 +157,24 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
 /// When a plan cannot be proved or its output is not valid, or when no plan suits the table.
 pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
     let mut built = Built { table: program.name.clone(), plans: Vec::new(), skipped: Vec::new(), files: Vec::new() };
-    for shape in &options.shapes {
-        let plan = PlanOptions { shape: *shape, weights: options.weights.get(&program.name), assume: options.assume };
-        let proved = match Plan::proved(program, plan) {
+    for wanted in wanted(program, options) {
+        let (shape, name) = (wanted.shape, wanted.name());
+        // The table as written is the same whatever occurs.
+        let weights = options.weights.get(&program.name).filter(|_| shape != Shape::Ladder);
+        let plan = Plan::new(program, PlanOptions { shape, weights, assume: wanted.assume });
+        let proved = plan.and_then(|mut plan| {
+            plan.notes.extend(wanted.chosen_on.iter().map(|device| format!("chosen by `umbrage tune` on {device}")));
+            plan.prove()
+        });
+        let proved = match proved {
             Ok(proved) => proved,
             Err(reason) if is_unsuitable(&reason) => {
-                built.skipped.push((*shape, reason));
+                built.skipped.push((name, reason));
                 continue;
             }
             Err(failure) => return Err(failure),
         };
-        built.plans.push((*shape, proved.proof().clone()));
-        let stem = if options.assume { format!("{shape}_assuming") } else { shape.to_string() };
-        let path = |extension: &str| Path::new(&program.name).join(format!("{stem}.{extension}"));
+        let path = |extension: &str| Path::new(&program.name).join(format!("{name}.{extension}"));
         for target in &options.targets {
             built.files.push(Artifact { path: path(target.extension()), contents: emit::emit(&proved, *target)? });
         }
@@ -114,6 +183,7 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
             let contents = words.iter().flat_map(|word| word.to_le_bytes()).collect();
             built.files.push(Artifact { path: path("lookup.bin"), contents });
         }
+        built.plans.push(BuiltPlan { name, proof: proved.proof().clone(), chosen_on: wanted.chosen_on });
     }
     match built.skipped.first() {
         Some((_, reason)) if built.plans.is_empty() => Err(reason.clone()),
