@@ -8,6 +8,9 @@ use super::terms::Locals;
 use crate::plan::{StepId, Turn};
 use crate::program::{BinaryOp, InputId, InputSet, Node, TernaryOp};
 
+/// Where a turned input comes from: the input fetched, its levels renamed, and the turns that ask for it so.
+type Way = (InputId, Option<Vec<u8>>, Vec<u32>);
+
 impl Body<'_, '_> {
     fn named(&mut self, ty: &Type, value: &str) -> String {
         let name = self.temporary();
@@ -185,7 +188,7 @@ impl Body<'_, '_> {
         }
     }
 
-    fn turned_fetch(&mut self, turn: &str, input: InputId, ways: &[(InputId, Option<Vec<u8>>, Vec<u32>)]) {
+    fn turned_fetch(&mut self, turn: &str, input: InputId, ways: &[Way]) {
         let program = self.plan.program;
         let declared = &program.inputs[input.index()];
         let ty = input_type(&declared.domain, Type::Uint);
