@@ -4,6 +4,8 @@
 //! build script does for one table, one plan and one language: read, check,
 //! plan, prove, emit, and validate with naga.
 
+mod synthetic;
+
 use divan::Bencher;
 use umbrage::emit::{self, Target};
 use umbrage::plan::{LookupPlace, Plan, Proved, Shape};
@@ -88,6 +90,17 @@ fn analyse_large(bencher: Bencher<'_, '_>) {
     let table = Table::parse(umbrage::diag::Source::new("large", text)).unwrap_or_else(|error| panic!("{error}"));
     let program = Program::check(&table).unwrap_or_else(|error| panic!("{error}"));
     bencher.bench(|| umbrage::analyse::findings(&program).len());
+}
+
+/// From text to source, without naga, as tables grow.
+#[divan::bench(args = [100, 1_000, 10_000], sample_count = 3)]
+fn grow(bencher: Bencher<'_, '_>, cases: usize) {
+    let text = synthetic::table(cases);
+    bencher.bench(|| {
+        let table = Table::parse(umbrage::diag::Source::new("synthetic", text.clone()));
+        let program = table.and_then(|table| Program::check(&table)).unwrap_or_else(|error| panic!("{error}"));
+        emit::wgsl(&proved(&program, Shape::Ladder)).len()
+    });
 }
 
 fn main() {

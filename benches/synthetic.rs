@@ -7,7 +7,7 @@ const LEVELS: usize = 8;
 
 /// A table with so many cases: fifteen of sixteen claim two states each, the
 /// others are broad and come last, so that they take what is left.
-pub fn table(cases: usize) -> String {
+pub(crate) fn table(cases: usize) -> String {
     let mut digits = 3;
     while LEVELS.pow(digits) < 3 * cases {
         digits += 1;
