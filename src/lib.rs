@@ -45,6 +45,7 @@ pub mod picture;
 pub mod plan;
 pub mod profile;
 pub mod program;
+mod random;
 #[cfg(feature = "report")]
 pub mod report;
 #[cfg(feature = "render")]

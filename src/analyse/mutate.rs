@@ -7,6 +7,7 @@ use super::point::Point;
 use super::study::Study;
 use crate::diag::{Diagnostic, Failure, Severity};
 use crate::program::Program;
+use crate::random::Random;
 use crate::table::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::table::{Case, CaseBody, Domain, Level, Table};
 
@@ -74,24 +75,6 @@ impl Tally {
     }
 }
 
-/// Random numbers, the same on every machine (splitmix64).
-pub(super) struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    /// A number below `end`, which is not zero.
-    pub(super) fn below(&mut self, end: usize) -> usize {
-        (self.next() % end.max(1) as u64) as usize
-    }
-}
-
 /// How many points of each piece of a table decide whether a change is harmless.
 const SAMPLES: usize = 24;
 
@@ -106,7 +89,7 @@ pub fn survey(
     mut progress: impl FnMut(usize),
 ) -> Result<Vec<(Mistake, Tally)>, Failure> {
     let program = Program::check(table)?;
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let points = samples(&program, &mut random);
     let before: Vec<Vec<f64>> = points.iter().map(|point| point.outcome(&program).values).collect();
     let known = said(&program);

@@ -15,7 +15,6 @@ use std::rc::Rc;
 
 use num_traits::{Signed, Zero};
 
-use super::mutate::Random;
 use super::point::Point;
 use super::real::Boxed;
 use super::sets::{Map, Set, Sets};
@@ -24,6 +23,7 @@ use crate::program::region::{self, Sign};
 use crate::program::{
     BinaryOp, Comparison, Cond, CondId, Domain, ExprId, InputId, LevelSet, LevelTerm, Node, Pool, Program, TernaryOp,
 };
+use crate::random::Random;
 
 /// Most selection-free values that one expression may have.
 const MAX_PARTS: usize = 1024;

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 
 use crate::eval::{Interpreter, NeedsFetch, Samples};
 use crate::program::{BinaryOp, Cond, CondId, Domain, ExprId, InputId, Node, Program, Value};
+use crate::random::Random;
 
 /// How many points per state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +41,7 @@ pub struct Points<'p> {
     comparisons: Vec<(ExprId, ExprId)>,
     /// Whether only points count at which the assumptions hold.
     assumed: bool,
-    random: u64,
+    random: Random,
 }
 
 /// Most changes that are made to a point so that the assumptions hold.
@@ -77,7 +78,7 @@ impl<'p> Points<'p> {
             continuous: continuous.collect(),
             comparisons: comparisons.found,
             assumed: false,
-            random: 0x9e37_79b9_7f4a_7c15,
+            random: Random::new(0x9e37_79b9_7f4a_7c15),
         }
     }
 
@@ -139,7 +140,7 @@ impl<'p> Points<'p> {
         let mut points = vec![base.clone(); self.effort.grid.max(2)];
         for (number, point) in points.iter_mut().enumerate() {
             for (input, lo, hi) in self.continuous.clone() {
-                let high = if number < 2 { number == 1 } else { self.next() % 2 == 1 };
+                let high = if number < 2 { number == 1 } else { self.random.below(2) == 1 };
                 point[input.index()] = Some(single(if high { hi } else { lo }));
             }
         }
@@ -149,7 +150,7 @@ impl<'p> Points<'p> {
     fn random_point(&mut self, base: &Point) -> Point {
         let mut point = base.clone();
         for (input, lo, hi) in self.continuous.clone() {
-            point[input.index()] = Some(single(lo + (hi - lo) * self.unit()));
+            point[input.index()] = Some(single(lo + (hi - lo) * self.random.unit()));
         }
         point
     }
@@ -207,7 +208,7 @@ impl<'p> Points<'p> {
                     let values: Vec<Value> = match &self.program.inputs[input.index()].domain {
                         Domain::Discrete(levels) => (0..levels.count() as u8).map(Value::Level).collect(),
                         Domain::Continuous { lo, hi, .. } => {
-                            let between = lo + (hi - lo) * self.unit();
+                            let between = lo + (hi - lo) * self.random.unit();
                             [*lo, *hi, between].map(single).to_vec()
                         }
                     };
@@ -264,7 +265,7 @@ impl<'p> Points<'p> {
                     };
                     let (at_lo, at_hi) = (difference(self, lo), difference(self, hi));
                     let root = lo + (hi - lo) * at_lo / (at_lo - at_hi);
-                    let between = [lo + (hi - lo) * self.unit(), lo + (hi - lo) * self.unit()];
+                    let between = [lo + (hi - lo) * self.random.unit(), lo + (hi - lo) * self.random.unit()];
                     for value in between.into_iter().chain([root, lo, hi]).filter(|v| (lo..=hi).contains(v)) {
                         let mut tried = filled.clone();
                         tried[input.index()] = Some(single(value));
@@ -291,26 +292,12 @@ impl<'p> Points<'p> {
         for (id, input) in self.program.input_ids() {
             if point[id.index()].is_none() {
                 point[id.index()] = Some(match &input.domain {
-                    Domain::Discrete(levels) => Value::Level((self.next() % levels.count() as u64) as u8),
-                    Domain::Continuous { lo, hi, .. } => single(lo + (hi - lo) * self.unit()),
+                    Domain::Discrete(levels) => Value::Level(self.random.below(levels.count()) as u8),
+                    Domain::Continuous { lo, hi, .. } => single(lo + (hi - lo) * self.random.unit()),
                 });
             }
         }
         point
-    }
-
-    /// SplitMix64.
-    fn next(&mut self) -> u64 {
-        self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.random;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    }
-
-    /// A random number of [0, 1).
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

@@ -6,6 +6,7 @@
 
 use super::Interpreter;
 use crate::program::{Domain, Program, Value};
+use crate::random::Random;
 
 /// A point: one value per input.
 type Point = Vec<Option<Value>>;
@@ -20,13 +21,13 @@ const USUAL: f64 = 4.0;
 pub struct Samples<'p> {
     program: &'p Program,
     interpreter: Interpreter<'p, f64>,
-    state: u64,
+    random: Random,
 }
 
 impl<'p> Samples<'p> {
     /// Points of a program.
     pub fn new(program: &'p Program) -> Self {
-        Self { program, interpreter: Interpreter::new(program), state: 0x9e37_79b9_7f4a_7c15 }
+        Self { program, interpreter: Interpreter::new(program), random: Random::new(0x9e37_79b9_7f4a_7c15) }
     }
 
     /// The examples and further points, up to `count` of these; fewer if the conditions are hard to meet.
@@ -62,7 +63,7 @@ impl<'p> Samples<'p> {
             .map(|(input, value)| match (&input.domain, value) {
                 (Domain::Continuous { lo, hi, .. }, Some(Value::Number(number))) => {
                     // Now and then the very same number: what is special about an example stays so.
-                    let step = if self.unit() < 0.25 { 0.0 } else { self.unit() - 0.5 };
+                    let step = if self.random.unit() < 0.25 { 0.0 } else { self.random.unit() - 0.5 };
                     Some(Value::Number((number + step * number.abs().max(0.1)).clamp(*lo, *hi)))
                 }
                 _ => *value,
@@ -75,23 +76,14 @@ impl<'p> Samples<'p> {
         inputs
             .map(|input| {
                 Some(match &input.domain {
-                    Domain::Discrete(levels) => Value::Level((self.unit() * levels.count() as f64) as u8),
+                    Domain::Discrete(levels) => Value::Level((self.random.unit() * levels.count() as f64) as u8),
                     Domain::Continuous { lo, hi, .. } => {
                         let (lo, hi) = (lo.max(-USUAL.max(-hi)), hi.min(USUAL.max(*lo)));
-                        Value::Number(lo + (hi - lo) * self.unit())
+                        Value::Number(lo + (hi - lo) * self.random.unit())
                     }
                 })
             })
             .collect()
-    }
-
-    /// A random number of [0, 1), by SplitMix64.
-    fn unit(&mut self) -> f64 {
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

@@ -5,23 +5,11 @@ use super::*;
 use crate::diag::Source;
 use crate::eval::Interpreter;
 use crate::program::{Domain, InputSet, LevelTerm, Node, Real, Value};
+use crate::random::Random;
 use crate::table::Table;
 
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) % count as u64) as usize
-    }
-
-    fn pick<'a>(&mut self, list: &[&'a str]) -> &'a str {
-        list[self.below(list.len())]
-    }
+fn pick<'a>(random: &mut Random, list: &[&'a str]) -> &'a str {
+    list[random.below(list.len())]
 }
 
 const SIDES: [&str; 4] = ["none", "left", "right", "both"];
@@ -71,10 +59,10 @@ fn table(random: &mut Random) -> String {
 
 fn guard(random: &mut Random, depth: usize) -> String {
     match random.below(if depth == 0 { 4 } else { 7 }) {
-        0 => format!("side == {}", random.pick(&SIDES)),
-        1 => format!("kind != {}", random.pick(&KINDS)),
-        2 => random.pick(&["flag", "!near", "near", "side in {left, right}"]).to_owned(),
-        3 => random.pick(&["flag", "kind == open", "x < 0.5"]).to_owned(),
+        0 => format!("side == {}", pick(random, &SIDES)),
+        1 => format!("kind != {}", pick(random, &KINDS)),
+        2 => pick(random, &["flag", "!near", "near", "side in {left, right}"]).to_owned(),
+        3 => pick(random, &["flag", "kind == open", "x < 0.5"]).to_owned(),
         4 => format!("({} || {})", guard(random, depth - 1), guard(random, depth - 1)),
         _ => format!("({} && {})", guard(random, depth - 1), guard(random, depth - 1)),
     }
@@ -82,9 +70,9 @@ fn guard(random: &mut Random, depth: usize) -> String {
 
 fn value(random: &mut Random, depth: usize) -> String {
     match random.below(if depth == 0 { 3 } else { 7 }) {
-        0 => random.pick(&["x", "y", "1 - x", "0.25", "1 + x - y"]).to_owned(),
+        0 => pick(random, &["x", "y", "1 - x", "0.25", "1 + x - y"]).to_owned(),
         1 => format!("{} * x - 0.5", 1 + random.below(3)),
-        2 => random.pick(&["2 - x - y", "y - x", "0.5 * y"]).to_owned(),
+        2 => pick(random, &["2 - x - y", "y - x", "0.5 * y"]).to_owned(),
         3 => format!("min({}, {})", value(random, depth - 1), value(random, depth - 1)),
         4 => format!("max({}, {})", value(random, depth - 1), value(random, depth - 1)),
         5 => format!("if side == left {{ {} }} else {{ {} }}", value(random, depth - 1), value(random, depth - 1)),
@@ -220,7 +208,7 @@ fn point(random: &mut Random, program: &Program, state: usize) -> Vec<Option<Val
 
 #[test]
 fn every_plan_of_random_tables_is_proved_and_right() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     let mut planned = [0; Shape::ALL.len()];
     for round in 0..120 {
         let text = table(&mut random);
@@ -269,7 +257,7 @@ fn every_plan_of_random_tables_is_proved_and_right() {
 /// One coefficient, one entry of the lookup, one leaf, one order.
 #[test]
 fn changed_plans_of_random_tables_are_refused() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     let mut refused = [0; 4];
     for _ in 0..40 {
         let program = program(&table(&mut random));

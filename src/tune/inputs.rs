@@ -10,6 +10,7 @@ use crate::analyse::admissible;
 use crate::eval::Columns;
 use crate::profile::Profile;
 use crate::program::{Assumption, Domain, Program, Value};
+use crate::random::Random;
 
 /// Threads of a coherent run: as many as run in step on most devices.
 const RUN: usize = 32;
@@ -49,7 +50,7 @@ impl fmt::Display for Kind {
 pub(super) struct Source<'p> {
     program: &'p Program,
     reachable: Vec<usize>,
-    random: u64,
+    random: Random,
 }
 
 impl<'p> Source<'p> {
@@ -59,7 +60,7 @@ impl<'p> Source<'p> {
         if reachable.is_empty() {
             reachable = (0..program.states.count()).collect();
         }
-        Self { program, reachable, random: 0x2545_f491_4f6c_dd1d }
+        Self { program, reachable, random: Random::new(0x2545_f491_4f6c_dd1d) }
     }
 
     /// As many rows of a kind.
@@ -93,7 +94,7 @@ impl<'p> Source<'p> {
 
     /// Some of the rows, drawn anew at each call.
     pub(super) fn subset(&mut self, columns: &Columns<f32>, count: usize) -> Columns<f32> {
-        let rows: Vec<usize> = (0..count).map(|_| self.below(columns.len())).collect();
+        let rows: Vec<usize> = (0..count).map(|_| self.random.below(columns.len())).collect();
         columns.select(&rows)
     }
 
@@ -105,14 +106,14 @@ impl<'p> Source<'p> {
             sums.push(sum);
         }
         let mut draw = || {
-            let at = self.unit() * sum;
+            let at = self.random.unit() * sum;
             sums.partition_point(|reached| *reached <= at).min(weights.len().saturating_sub(1))
         };
         (0..count).map(|_| draw()).collect()
     }
 
     fn any_reachable(&mut self) -> usize {
-        let place = self.below(self.reachable.len());
+        let place = self.random.below(self.reachable.len());
         self.reachable[place]
     }
 
@@ -123,24 +124,13 @@ impl<'p> Source<'p> {
         let value = |(id, input): (crate::program::InputId, &crate::program::Input)| {
             Some(match &input.domain {
                 Domain::Discrete(_) if input.fetched.is_none() => Value::Level(levels[id.index()]),
-                Domain::Discrete(all) => Value::Level(self.below(all.count()) as u8),
-                Domain::Continuous { lo, hi, .. } => Value::Number(f64::from((lo + (hi - lo) * self.unit()) as f32)),
+                Domain::Discrete(all) => Value::Level(self.random.below(all.count()) as u8),
+                Domain::Continuous { lo, hi, .. } => {
+                    Value::Number(f64::from((lo + (hi - lo) * self.random.unit()) as f32))
+                }
             })
         };
         program.input_ids().map(value).collect()
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
-    }
-
-    /// A random number of [0, 1): SplitMix64.
-    fn unit(&mut self) -> f64 {
-        self.random = self.random.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.random;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ z >> 31) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
 

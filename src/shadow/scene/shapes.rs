@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 
 use super::solid::{Triangle, bar, block, quad, surface};
 use super::{letters, teapot};
+use crate::random::Random;
 
 /// A shape that is computed rather than read from a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -157,32 +158,18 @@ fn lattice(out: &mut Vec<Triangle>, [across, up]: [u32; 2], [width, height]: [f6
 }
 
 fn foliage(out: &mut Vec<Triangle>, leaves: u32, radius: f64, length: f64, seed: u64) {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
+    let mut signed = || 2.0 * random.unit() - 1.0;
     for _ in 0..leaves {
         let place = loop {
-            let place = DVec3::new(random.signed(), random.signed(), random.signed());
+            let place = DVec3::new(signed(), signed(), signed());
             if place.length_squared() <= 1.0 {
                 break place * (radius - length / 2.0).max(0.0) + DVec3::Y * radius;
             }
         };
-        let turn = DQuat::from_xyzw(random.signed(), random.signed(), random.signed(), random.signed() + 1e-3);
+        let turn = DQuat::from_xyzw(signed(), signed(), signed(), signed() + 1e-3);
         let turn = turn.normalize();
         let at = |along: f64, across: f64| place + turn * DVec3::new(along * length, 0.0, across * length);
         quad(out, [at(-0.5, 0.0), at(0.05, 0.22), at(0.5, 0.0), at(0.05, -0.22)]);
-    }
-}
-
-/// Numbers that look random and are the same everywhere (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    /// From -1 to 1.
-    fn signed(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        bits ^= bits >> 31;
-        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
