@@ -223,7 +223,7 @@ mod tests {
         let scene = Scene::example();
         let mut random = Random::new(11);
         let mut hidden = 0;
-        for _ in 0..2000 {
+        for _ in 0..20_000 {
             let mut part = || 2.0 * random.unit() - 1.0;
             let towards = DVec3::new(part(), part(), -1.0);
             let Some(surface) = scene.hit(scene.eye, towards.normalize()) else { continue };
