@@ -57,12 +57,7 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    pub(super) fn new(
-        pool: &mut Pool,
-        setting: &Setting<'_, '_>,
-        states: &[usize],
-        known: &Knowledge,
-    ) -> Result<Self> {
+    pub(super) fn new(pool: &mut Pool, setting: &Setting<'_, '_>, states: &[usize], known: &Knowledge) -> Result<Self> {
         let (tests, rows) = tests(setting, states)?;
         let (order, bound) = tests.best();
         let guards = &setting.program.rows;
