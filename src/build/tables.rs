@@ -311,7 +311,8 @@ mod tests {
         let errors = Tables::new("none.ron").output(place.path()).compile().expect_err("wrong");
         let text = format!("{errors:?}");
         assert!(text.starts_with("the tables cannot be compiled\n\nerror[U0001]: none.ron: "), "{text}");
-        let last = "`umbrage check none.ron` checks without building; `umbrage explain U0001` says at length what U0001 means";
+        let last =
+            "`umbrage check none.ron` checks without building; `umbrage explain U0001` says at length what U0001 means";
         assert!(text.ends_with(last), "{text}");
     }
 }
