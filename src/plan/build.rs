@@ -138,6 +138,7 @@ impl<'p> Builder<'p> {
             shape,
             assumed: false,
             weighed: None,
+            inputs: 0,
             certificate: None,
             notes: Vec::new(),
             pool: self.pool,

@@ -27,7 +27,7 @@ mod weights;
 
 use std::fmt;
 
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::{Diagnostic, Failure, codes, fnv1a};
 use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
 pub use coefficients::{Coefficients, Fit, Form, Piece};
@@ -229,6 +229,8 @@ pub struct Plan<'p> {
     pub assumed: bool,
     /// Where the weights come from that it was made for.
     pub weighed: Option<String>,
+    /// A hash of everything that it was made from: texts, weights and options.
+    pub inputs: u64,
     /// How good it is of its kind, where that is known.
     pub certificate: Option<Certificate>,
     /// The program's terms and those that planning made of them.
@@ -246,6 +248,15 @@ pub struct Plan<'p> {
     pub notes: Vec<String>,
     steps: Vec<Step>,
     root: StepId,
+}
+
+/// A hash of everything that a plan is made from.
+fn inputs(program: &Program, options: &PlanOptions<'_>) -> u64 {
+    let texts = [&program.source].into_iter().chain(&program.imported).map(|source| source.fingerprint());
+    let weights = options.weights.into_iter().flat_map(|w| (0..w.count()).map(|state| w.of(state).to_bits()));
+    let origin = options.weights.map_or("", Weights::origin);
+    let options = format!("{} {} {} {origin}", env!("CARGO_PKG_VERSION"), options.shape, options.assume);
+    fnv1a(texts.chain(weights).flat_map(u64::to_le_bytes).chain(options.into_bytes()))
 }
 
 impl<'p> Plan<'p> {
@@ -271,7 +282,8 @@ impl<'p> Plan<'p> {
                 Shape::Orbit => orbit::plan(&setting),
             };
             let weighed = setting.weights.map(|weights| weights.origin().to_owned());
-            plan.map(|plan| Plan { assumed: options.assume, weighed, ..plan })
+            let inputs = inputs(program, &options);
+            plan.map(|plan| Plan { assumed: options.assume, weighed, inputs, ..plan })
         });
         made.map_err(|reason| {
             let message = format!("the plan `{shape}` does not suit the table `{}`", program.name);
