@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     /// Directory for the generated files, one folder per table
     #[arg(long, short, value_name = "DIR", default_value = "generated")]
     output: PathBuf,
-    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit; and auto, what
+    /// Code shapes: ladder, ordered, nested, gathered, tree, switch, switch_buffer, coefficients, orbit; and auto, what
     /// `umbrage tune` chose, or else switch, or ladder where the key is too large [default: ladder,ordered,switch,auto]
     #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = plan::parse_plan)]
     plan: Vec<PlanArgument>,

@@ -35,7 +35,7 @@ use crate::program::Output;
 pub use glsl::GlslVersion;
 pub use host::Beside;
 pub use module::lookup_words;
-pub use validate::{Translated, glsl_module, translate, wgsl_module};
+pub use validate::{Translated, Validated, glsl_module, translate, wgsl_module};
 
 /// A language to emit, and in what form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -151,6 +151,11 @@ impl<'p> Builder<'p> {
         }
     }
 
+    /// How many steps were made.
+    pub(super) fn len(&self) -> usize {
+        self.steps.len()
+    }
+
     /// A step that was made.
     pub(super) fn step(&self, id: StepId) -> &Step {
         &self.steps[id.0 as usize]

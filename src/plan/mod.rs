@@ -8,6 +8,7 @@
 mod build;
 mod chain;
 mod coefficients;
+mod gather;
 mod key;
 mod knowledge;
 mod orbit;
@@ -34,7 +35,7 @@ pub use key::KeyLayout;
 pub use order::Certificate;
 pub use prove::{Counterexample, Proof, Refusal};
 pub use reachable::reachable;
-pub(crate) use turn::{Turn, renamed};
+pub(crate) use turn::renamed;
 pub use weights::Weights;
 
 use setting::Setting;
@@ -48,6 +49,8 @@ pub enum Shape {
     Ordered,
     /// A few tests that decide many guards, then chains in the best order: the published advice.
     Nested,
+    /// Every fetch at one place, then the chain in the best order.
+    Gathered,
     /// A graph of tests on inputs with the least expected number of them.
     Tree,
     /// The packed key selects the case through a lookup, then a `switch`.
@@ -69,10 +72,11 @@ pub enum LookupPlace {
 
 impl Shape {
     /// Every shape, in the order of reports.
-    pub const ALL: [Shape; 8] = [
+    pub const ALL: [Shape; 9] = [
         Shape::Ladder,
         Shape::Ordered,
         Shape::Nested,
+        Shape::Gathered,
         Shape::Tree,
         Shape::Switch(LookupPlace::Constants),
         Shape::Switch(LookupPlace::Buffer),
@@ -86,6 +90,7 @@ impl Shape {
             Shape::Ladder => "ladder",
             Shape::Ordered => "ordered",
             Shape::Nested => "nested",
+            Shape::Gathered => "gathered",
             Shape::Tree => "tree",
             Shape::Switch(LookupPlace::Constants) => "switch",
             Shape::Switch(LookupPlace::Buffer) => "switch_buffer",
@@ -158,20 +163,30 @@ pub enum Step {
         /// Where to go then.
         next: StepId,
     },
-    /// Goes where the lookup says; only at the root.
+    /// Fetches an input if a condition holds, and goes on either way. Only what is
+    /// fetched is looked at afterwards; such steps come before all others.
+    Gather {
+        /// The input.
+        input: InputId,
+        /// When it is needed.
+        condition: CondId,
+        /// Where to go then.
+        next: StepId,
+    },
+    /// Goes where the lookup says; only at the root or behind [`Step::Gather`].
     Switch {
         /// The ways.
         arms: Vec<StepId>,
     },
     /// The result that coefficients give, or one of the other ways, as the lookup
-    /// says: the coefficients come first in its numbering; only at the root.
+    /// says: the coefficients come first in its numbering; only at the root or behind [`Step::Gather`].
     Coefficients {
         /// The ways of states without coefficients.
         rest: Vec<StepId>,
     },
     /// Turns the inputs by symmetries, goes one of the ways, turns the result back.
     /// The lowest bits of the lookup say by which symmetries, the others which way;
-    /// only at the root.
+    /// only at the root or behind [`Step::Gather`].
     Orbit {
         /// The ways.
         arms: Vec<StepId>,
@@ -185,7 +200,7 @@ impl Step {
     pub fn next(&self) -> Vec<StepId> {
         match self {
             Step::Test { then, other, .. } => vec![*then, *other],
-            Step::Fetch { next, .. } => vec![*next],
+            Step::Fetch { next, .. } | Step::Gather { next, .. } => vec![*next],
             Step::Switch { arms } | Step::Coefficients { rest: arms } | Step::Orbit { arms } => arms.clone(),
             Step::Leaf(_) => Vec::new(),
         }
@@ -256,6 +271,7 @@ impl<'p> Plan<'p> {
             let plan = match shape {
                 Shape::Ordered => chain::ordered(&setting),
                 Shape::Nested => chain::nested(&setting),
+                Shape::Gathered => gather::gathered(&setting),
                 Shape::Tree => tree::tree(&setting),
                 Shape::Ladder => build::ladder(program),
                 _ if program.function.is_some() && program.states.count() == 1 => {
@@ -306,10 +322,19 @@ impl<'p> Plan<'p> {
         self.root
     }
 
+    /// The first step behind those that gather.
+    pub fn behind_fetches(&self) -> StepId {
+        let mut at = self.root;
+        while let Step::Gather { next, .. } = self.step(at) {
+            at = *next;
+        }
+        at
+    }
+
     /// The input that a step fetches.
     pub fn fetch_of(&self, step: StepId) -> Option<InputId> {
         match self.step(step) {
-            Step::Fetch { input, .. } => Some(*input),
+            Step::Fetch { input, .. } | Step::Gather { input, .. } => Some(*input),
             _ => None,
         }
     }
