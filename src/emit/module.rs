@@ -72,10 +72,7 @@ fn write_header(text: &mut Text, proved: &Proved<'_>, names: &Names) {
     }
     if plan.assumed {
         let names: Vec<&str> = program.assumptions.iter().map(|a| a.name.as_str()).collect();
-        text.comment(&format!(
-            "Assume: {}; anything may come out where one of them does not hold",
-            names.join(", ")
-        ));
+        text.comment(&format!("Assume: {}; anything may come out where one of them does not hold", names.join(", ")));
     }
     text.comment(&format!("Proof:  {}", proved.proof()));
     text.gap();
