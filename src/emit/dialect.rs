@@ -102,10 +102,6 @@ pub(super) trait Dialect {
     fn of_pair(&self, pair: &str, second: bool) -> String {
         format!("{pair}.{}", if second { "y" } else { "x" })
     }
-    /// The last lines of a file.
-    fn epilogue(&self) -> &'static str {
-        ""
-    }
     /// A constant of the module.
     fn constant(&self, name: &str, value: u32) -> String;
     /// The structure of value and case.
@@ -117,6 +113,10 @@ pub(super) trait Dialect {
     /// Declares a number that is assigned later.
     fn number_later(&self, name: &str) -> String {
         format!("float {name};")
+    }
+    /// Declares a local that may be assigned again.
+    fn variable(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String {
+        self.local(ty, name, value, prefix)
     }
     /// The first line of a conditional.
     fn if_open(&self, condition: &str) -> String {
