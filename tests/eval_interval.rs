@@ -235,9 +235,34 @@ proptest! {
 }
 
 const UNARY: [&str; 28] = [
-    "abs", "sign", "ceil", "floor", "trunc", "round", "fract", "saturate", "sqrt", "inverseSqrt", "exp", "exp2", "log",
-    "log2", "sin", "cos", "tan", "portableSin", "portableCos", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh",
-    "acosh", "atanh",
+    "abs",
+    "sign",
+    "ceil",
+    "floor",
+    "trunc",
+    "round",
+    "fract",
+    "saturate",
+    "sqrt",
+    "inverseSqrt",
+    "exp",
+    "exp2",
+    "log",
+    "log2",
+    "sin",
+    "cos",
+    "tan",
+    "portableSin",
+    "portableCos",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "asinh",
+    "acosh",
+    "atanh",
 ];
 
 /// An expression of `x`, `y` and `s`, as text.

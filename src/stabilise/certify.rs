@@ -127,7 +127,8 @@ fn thin(program: &Program) -> Vec<Vec<Value>> {
     };
     let mut all = Vec::new();
     for (mut point, input) in domain_points(program, THIN).into_iter().zip(inputs.into_iter().cycle()) {
-        let (Value::Number(mut centre), Domain::Continuous { lo, hi, .. }) = (point[input], &program.inputs[input].domain)
+        let (Value::Number(mut centre), Domain::Continuous { lo, hi, .. }) =
+            (point[input], &program.inputs[input].domain)
         else {
             continue;
         };

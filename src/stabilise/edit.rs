@@ -51,7 +51,8 @@ pub(super) fn apply(table: &Table, values: &[(&Function, String)], added: &Added
     let helpers: String = kernels.chain(added.densities.iter().cloned()).collect();
     let constants = if added.densities.is_empty() { String::new() } else { gauss::constants("        ") };
     let first_function = table.functions.first().map_or(0, |function| function.name.span.start);
-    let before_functions = source[..first_function].rfind("functions").map_or(first_function, |at| line_start(source, at));
+    let before_functions =
+        source[..first_function].rfind("functions").map_or(first_function, |at| line_start(source, at));
     let mut new_fields = String::new();
     for (field, entries, first) in [
         ("constants", constants, table.constants.first().map(|constant| constant.name.span.start)),

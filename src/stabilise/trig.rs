@@ -190,9 +190,8 @@ mod tests {
         // cos(3 a) = cos(a) - 4 cos(a) sin(a)^2, and a sum and its parts agree.
         let triple = multiple("cos", 3, &a, &Poly::default(), 1).and_then(|c| substitute(&c, &BTreeMap::new()));
         let sine = wave("sin", &a).expect("small");
-        let expected = sine
-            .times(&sine)
-            .and_then(|s| Poly::whole(1).minus(&s.times_number(4.into())?)?.times(&cos(&a)));
+        let expected =
+            sine.times(&sine).and_then(|s| Poly::whole(1).minus(&s.times_number(4.into())?)?.times(&cos(&a)));
         assert_eq!(triple.and_then(|c| without_squared_cosines(&c)), expected);
         assert_eq!(cos(&a.minus(&b).expect("small")), cos(&b.minus(&a).expect("small")));
     }
