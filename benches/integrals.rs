@@ -133,7 +133,7 @@ fn point(inputs: &[&str], row: usize) -> Vec<f32> {
     // The additive sequence of the generalised golden ratio in each place.
     let part =
         |place: usize| (0.5 + (row + 1) as f64 * (0.618_033_988_75 + 0.137_213_1 * place as f64).fract()).fract();
-    let k = if row % 2 == 0 { 0.0 } else { part(4) - 0.45 };
+    let k = if row.is_multiple_of(2) { 0.0 } else { part(4) - 0.45 };
     let (phi0, theta, width) = (5.0 * part(1), 0.3 + 2.0 * part(2), 0.02 + 0.33 * part(3));
     let boundary = theta + 0.02 + 0.3 * part(5);
     let [z, turn] = [2.0 * part(6) - 1.0, 2.0 * PI * part(7)];
