@@ -15,11 +15,12 @@ mod terms;
 mod tests;
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use super::domain::{Input, LevelKind, Levels, StateSpace};
 use super::pool::{InputSet, Pool};
 use super::{Assumption, InputId, Output, Program};
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::{self, Table, names};
 use scope::Env;
 use terms::Term;
@@ -134,6 +135,11 @@ impl<'t> Lowering<'t> {
         scope
     }
 
+    /// The texts of the tables that this one imports, directly or not.
+    fn imported(&self) -> Vec<Arc<Source>> {
+        self.scopes.iter().skip(1).map(|table| table.source.clone()).collect()
+    }
+
     /// The inputs that are fetched.
     fn fetched(&self) -> InputSet {
         let fetched = self.inputs.iter().enumerate().filter(|(_, i)| i.fetched.is_some());
@@ -178,6 +184,7 @@ impl<'t> Lowering<'t> {
         let fetched = self.fetched();
         Some(Program {
             source: table.source.clone(),
+            imported: self.imported(),
             name: table.name.value.clone(),
             title: table.title.clone(),
             origin: table.origin.clone(),
