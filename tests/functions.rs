@@ -217,6 +217,27 @@ fn values_and_errors_at_the_edges() {
     assert!(said.code == Some(2) && said.err.contains("a <= b does not hold"), "{}", said.all());
 }
 
+/// `docs/double_product_stable.ron` is what the command makes of the printed table, certificate included.
+#[test]
+fn the_stabilised_table_is_what_the_command_makes() {
+    let place = Place::new();
+    place.table("double_product_printed.ron");
+    let said = place.run("stabilise double_product_printed.ron -o stable.ron --message-format json");
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{}", said.all());
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/double_product_stable.ron");
+    assert_eq!(place.read("stable.ron"), std::fs::read_to_string(kept).unwrap());
+    let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let functions = report["functions"].as_array().unwrap();
+    assert_eq!(functions.len(), 15);
+    for function in functions {
+        let certificate = &function["certificate"];
+        assert_eq!(certificate["met"], true, "{function}");
+        assert!(certificate["points"].as_u64() >= Some(180) && certificate["admitted"].is_f64(), "{function}");
+    }
+    let said = place.run("check stable.ron");
+    assert_eq!(said.code, Some(0), "{}", said.all());
+}
+
 #[test]
 fn columns_of_functions() {
     let place = Place::new();
