@@ -74,7 +74,11 @@ fn new_writes_what_can_be_checked_and_built_and_replaces_nothing() {
     assert!(place.read("build.rs").contains("\"/paint/ordered.wgsl\""));
     let said = place.run("new paint");
     assert_eq!(said.code, Some(2));
-    assert!(said.err.starts_with("error[U0722]: ./tables/paint.ron: exists already; nothing was written"), "{}", said.err);
+    assert!(
+        said.err.starts_with("error[U0722]: ./tables/paint.ron: exists already; nothing was written"),
+        "{}",
+        said.err
+    );
     // The build script alone stands in the way, too.
     let said = place.run("new other");
     assert_eq!(said.code, Some(2));
@@ -130,11 +134,16 @@ fn watch_builds_again_and_keeps_what_was_right() {
     ];
     for stream in out {
         let send = send.clone();
-        std::thread::spawn(move || BufReader::new(stream).lines().map_while(Result::ok).try_for_each(|line| send.send(line)));
+        std::thread::spawn(move || {
+            BufReader::new(stream).lines().map_while(Result::ok).try_for_each(|line| send.send(line))
+        });
     }
     let running = Running { child, lines };
     running.until("waiting for changes");
-    assert!(place.read("generated/half/ladder.wgsl").contains("0.5") || place.read("generated/half/ladder.wgsl").contains("/ 2.0"));
+    assert!(
+        place.read("generated/half/ladder.wgsl").contains("0.5")
+            || place.read("generated/half/ladder.wgsl").contains("/ 2.0")
+    );
     write(&place, "tables/half.ron", &TIDY.replace("x / 2", "y / 2"));
     running.until("`y` is not defined");
     running.until("what was generated before stays; waiting for changes");
@@ -151,7 +160,9 @@ fn watch_builds_again_and_keeps_what_was_right() {
 #[test]
 fn completions_and_manual_come_from_the_arguments() {
     let place = Place::new();
-    for (shell, what) in [("bash", "complete -F _umbrage"), ("zsh", "#compdef umbrage"), ("fish", "complete -c umbrage")] {
+    for (shell, what) in
+        [("bash", "complete -F _umbrage"), ("zsh", "#compdef umbrage"), ("fish", "complete -c umbrage")]
+    {
         let said = place.run(&format!("completions {shell}"));
         assert_eq!(said.code, Some(0));
         assert!(said.out.contains(what) && said.out.contains("stabilise"), "{shell}");
@@ -162,4 +173,92 @@ fn completions_and_manual_come_from_the_arguments() {
     assert_eq!(said.code, Some(0), "{}", said.all());
     assert!(place.read("man/umbrage-build.1").contains("\\-\\-watch"));
     assert!(place.path("man/umbrage-profile-merge.1").exists());
+}
+
+/// The fenced blocks of a text whose opening line says this.
+fn blocks(text: &str, language: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut open = None;
+    for line in text.lines() {
+        match &mut open {
+            None if line.starts_with("```") => open = Some((line[3..] == *language, String::new())),
+            Some((wanted, block)) if line == "```" => {
+                found.extend(wanted.then(|| std::mem::take(block)));
+                open = None;
+            }
+            Some((_, block)) => {
+                block.push_str(line);
+                block.push('\n');
+            }
+            None => {}
+        }
+    }
+    found
+}
+
+/// The tutorial, done as it says, but for `cargo`: what the build script would make is made by the command, and the
+/// program is compiled by itself.
+#[test]
+fn the_tutorial_works() {
+    let text = include_str!("../docs/tutorial.md");
+    let place = Place::new();
+    let commands = blocks(text, "sh").concat();
+    let umbrage: Vec<&str> = commands.lines().filter_map(|line| line.strip_prefix("umbrage ")).collect();
+    let said: Vec<_> = umbrage.iter().map(|arguments| place.run(arguments)).collect();
+    assert!(
+        said.iter().all(|said| said.code == Some(0)),
+        "{umbrage:?}: {:?}",
+        said.iter().map(|s| s.all()).collect::<Vec<_>>()
+    );
+    let shown = blocks(text, "text");
+    assert_eq!(said[1].out, shown[0]);
+    // The script that is shown is the one that was written, without its comment.
+    assert!(place.read("build.rs").ends_with(&blocks(text, "rust,build")[0]));
+    // The program.
+    let build = |plan: &str| place.run(&format!("build --target wgsl --plan {plan} --output out"));
+    assert_eq!(build("ordered").code, Some(0));
+    place.file("main.rs", &blocks(text, "rust,main")[0]);
+    let compiled = Command::new("rustc")
+        .args(["--edition", "2024", "main.rs"])
+        .env("OUT_DIR", place.path("out"))
+        .current_dir(place.path(""))
+        .status()
+        .unwrap_or_else(|e| panic!("{e}"));
+    assert!(compiled.success());
+    let ran = Command::new(place.path("main")).output().unwrap_or_else(|e| panic!("{e}"));
+    assert!(String::from_utf8_lossy(&ran.stdout).contains("fn paint("));
+    // The change, and the mistake.
+    let change = blocks(text, "ron,change")[0].trim().to_owned();
+    let table = place.read("tables/paint.ron");
+    write(&place, "tables/paint.ron", &table.replacen("value: 0,", &change, 1));
+    let checked = place.run("check tables/paint.ron");
+    assert_eq!(checked.code, Some(0), "{}", checked.all());
+    write(&place, "tables/paint.ron", &table.replacen("value: 0,", &change.replacen("pressure", "presure", 1), 1));
+    let checked = place.run("check tables/paint.ron");
+    assert_eq!(checked.code, Some(2));
+    assert!(checked.err.starts_with(&shown[1]), "{}", checked.err);
+    assert_eq!(build("ordered").code, Some(2));
+}
+
+/// The example, but for `cargo`: its tests pass with what the command makes of its table.
+#[test]
+fn the_terrain_is_the_expected_one() {
+    let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/terrain");
+    let place = Place::new();
+    let read = |name: &str| std::fs::read_to_string(example.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    for name in ["tables/terrain.ron", "src/main.rs", "src/map.txt"] {
+        write(&place, name, &read(name));
+    }
+    assert_eq!(place.run("fmt --check").code, Some(0));
+    let built = place.run("build --target wgsl,rust --plan ordered --output out");
+    assert_eq!(built.code, Some(0), "{}", built.all());
+    let compiled = Command::new("rustc")
+        .args(["--edition", "2024", "--test", "src/main.rs", "-o", "terrain"])
+        .env("OUT_DIR", place.path("out"))
+        .current_dir(place.path(""))
+        .status()
+        .unwrap_or_else(|e| panic!("{e}"));
+    assert!(compiled.success());
+    let tested = Command::new(place.path("terrain")).output().unwrap_or_else(|e| panic!("{e}"));
+    assert!(tested.status.success(), "{}", String::from_utf8_lossy(&tested.stdout));
 }

@@ -33,17 +33,20 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let name = arguments.name.as_str();
     let place = Span::new(0, 0);
     // A table, unlike an input, has no dot in its name.
-    names::check_inner(name, "a table", place).and_then(|()| names::check(name, "a table", place)).map_err(|mut error| {
-        // The name comes from the command line: there is no text to point into.
-        error.labels.clear();
-        Failure::bare(name, error)
-    })?;
+    names::check_inner(name, "a table", place).and_then(|()| names::check(name, "a table", place)).map_err(
+        |mut error| {
+            // The name comes from the command line: there is no text to point into.
+            error.labels.clear();
+            Failure::bare(name, error)
+        },
+    )?;
     let table = Artifact {
         path: ["tables", &format!("{name}.ron")].iter().collect(),
         contents: TABLE.replace(PLACEHOLDER, name).into_bytes(),
     };
     let script = Artifact { path: "build.rs".into(), contents: SCRIPT.replace(PLACEHOLDER, name).into_bytes() };
-    let files: Vec<Artifact> = [Some(table), Some(script).filter(|_| !arguments.table_only)].into_iter().flatten().collect();
+    let files: Vec<Artifact> =
+        [Some(table), Some(script).filter(|_| !arguments.table_only)].into_iter().flatten().collect();
     for file in &files {
         let path = arguments.directory.join(&file.path);
         // A link that leads nowhere is something, too.
@@ -66,7 +69,10 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
             writeln!(out, "\nAdd to Cargo.toml:\n\n  [build-dependencies]")?;
             writeln!(out, "  umbrage = {{ version = \"{}\", default-features = false }}", env!("CARGO_PKG_VERSION"))?;
             writeln!(out, "\nand to the program:\n")?;
-            writeln!(out, "  const SHADER: &str = include_str!(concat!(env!(\"OUT_DIR\"), \"/{name}/ordered.wgsl\"));")?;
+            writeln!(
+                out,
+                "  const SHADER: &str = include_str!(concat!(env!(\"OUT_DIR\"), \"/{name}/ordered.wgsl\"));"
+            )?;
         }
         out.flush()?;
     }

@@ -11,7 +11,8 @@ fn texts() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut paths = vec![root.join("README.md"), root.join("CONTRIBUTING.md")];
     let entries = std::fs::read_dir(root.join("docs")).unwrap_or_else(|e| panic!("{e}"));
-    paths.extend(entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "md")));
+    paths
+        .extend(entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "md")));
     paths.sort();
     let text = |path: &PathBuf| std::fs::read_to_string(path).unwrap_or_else(|e| panic!("{e}"));
     paths.into_iter().map(|path| (path.clone(), text(&path))).collect()
@@ -25,7 +26,8 @@ fn readings(line: &str) -> Option<[Vec<String>; 2]> {
         Some(rest) => format!("umbrage {}", rest.split_once("-- ")?.1),
         None => line.to_owned(),
     };
-    line.strip_prefix("umbrage ")?;
+    // A line of Cargo.toml is no command.
+    line.strip_prefix("umbrage ").filter(|rest| !rest.starts_with('='))?;
     let command = line.split(" # ").next()?.split([';', '|', '>']).next()?;
     let described = command.trim_end().rfind("  ").map_or(command, |gap| &command[..gap]);
     Some([command, described].map(|text| {
@@ -52,11 +54,13 @@ fn command_lines_of_the_documentation_are_accepted() {
                 continue;
             }
             // Placeholders such as <command> and `...` are for people.
-            let Some(readings) = readings(&line).filter(|_| inside && !line.contains('<') && !line.contains("...")) else {
+            let Some(readings) = readings(&line).filter(|_| inside && !line.contains('<') && !line.contains("..."))
+            else {
                 continue;
             };
             count += 1;
-            let [error, other] = readings.map(|words| Arguments::try_parse_from(words).err().filter(clap::Error::use_stderr));
+            let [error, other] =
+                readings.map(|words| Arguments::try_parse_from(words).err().filter(clap::Error::use_stderr));
             if let (Some(error), Some(_)) = (error, other) {
                 panic!("{}: {line}\n{error}", path.display());
             }

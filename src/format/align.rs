@@ -33,7 +33,9 @@ pub(super) fn align(rows: &mut Rows<'_>) {
         let begins = found.as_ref().is_some_and(|(pair, _, _)| of == Some(*pair));
         // Lines inside of an item are passed over; everything else ends a run.
         let inside = line.pieces.first().is_some_and(|piece| {
-            of.is_some_and(|of| !piece.begins_in(of, pairs) && !piece.token.is_comment() && is_inside(piece.pair, of, pairs))
+            of.is_some_and(|of| {
+                !piece.begins_in(of, pairs) && !piece.token.is_comment() && is_inside(piece.pair, of, pairs)
+            })
         });
         if line.blank || !(begins || inside) {
             finish(lines, &mut run);
@@ -120,9 +122,8 @@ fn finish(lines: &mut [Line<'_>], run: &mut Vec<Row>) {
     for column in 0..columns {
         let mut open: Vec<&Row> = run.iter().filter(|row| row.stops.len() > column).collect();
         while let Some(first) = open.first().copied() {
-            let same = |row: &Row| {
-                row.stops[..=column].iter().zip(&first.stops[..=column]).all(|((_, a), (_, b))| a == b)
-            };
+            let same =
+                |row: &Row| row.stops[..=column].iter().zip(&first.stops[..=column]).all(|((_, a), (_, b))| a == b);
             let group: Vec<(usize, usize)> =
                 open.iter().filter(|row| same(row)).map(|row| (row.line, row.stops[column].0)).collect();
             open.retain(|row| !same(row));
@@ -134,10 +135,8 @@ fn finish(lines: &mut [Line<'_>], run: &mut Vec<Row>) {
 
 /// Aligns pieces, those far wider than others apart from these.
 fn columns_of_near(lines: &mut [Line<'_>], group: &[(usize, usize)], near: usize) {
-    let mut ends: Vec<(usize, usize, usize)> = group
-        .iter()
-        .filter_map(|(line, piece)| Some((end_before(&lines[*line], *piece)?, *line, *piece)))
-        .collect();
+    let mut ends: Vec<(usize, usize, usize)> =
+        group.iter().filter_map(|(line, piece)| Some((end_before(&lines[*line], *piece)?, *line, *piece))).collect();
     ends.sort_unstable();
     let mut start = 0;
     for index in 0..ends.len() {
@@ -187,9 +186,10 @@ fn keep_in(lines: &mut [Line<'_>], pairs: &[Pair]) {
     for (column, pair) in meant {
         let mut members: Vec<(usize, usize, usize)> = Vec::new();
         for (number, line) in lines.iter().enumerate().filter(|(_, line)| starts_in(line, pairs) == Some(pair)) {
-            let here = line.pieces.iter().enumerate().skip(1).find(|(index, piece)| {
-                piece.token.column == column && piece.token.gap > 0 && is_cell(line, *index)
-            });
+            let here =
+                line.pieces.iter().enumerate().skip(1).find(|(index, piece)| {
+                    piece.token.column == column && piece.token.gap > 0 && is_cell(line, *index)
+                });
             if let Some((index, _)) = here
                 && let Some(end) = end_before(line, index)
             {

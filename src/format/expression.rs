@@ -118,7 +118,10 @@ mod tests {
         assert_eq!(one("1-px*-py"), "1 - px * -py");
         assert_eq!(one("  !( a||b )&&x<=- 1 "), "!(a || b) && x <= -1");
         assert_eq!(one("if V==top{py}else{1-py}"), "if V == top { py } else { 1 - py }");
-        assert_eq!(one("if a { -x } else if b{c}else{ { r : 1 , s:2 } }"), "if a { -x } else if b { c } else { {r: 1, s: 2} }");
+        assert_eq!(
+            one("if a { -x } else if b{c}else{ { r : 1 , s:2 } }"),
+            "if a { -x } else if b { c } else { {r: 1, s: 2} }"
+        );
         assert_eq!(one("H in { left,right }&&case(11 ,V=none)>0"), "H in {left, right} && case(11, V = none) > 0");
         assert_eq!(one("let n=1;  poly(x, [1, - 1 / 6, a/b])/2"), "let n = 1; poly(x, [1, -1/6, a / b]) / 2");
         assert_eq!(one("sin(s*x)/s|x=x0..x1"), "sin(s * x) / s | x = x0 .. x1");

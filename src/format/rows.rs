@@ -116,7 +116,9 @@ fn attached<'a>(tokens: Vec<Token<'a>>) -> Vec<Token<'a>> {
                 out.insert(last, token);
                 continue;
             }
-            Kind::Open if out.last().is_some_and(|before| before.kind == Kind::Atom && !before.text.starts_with('#')) => {
+            Kind::Open
+                if out.last().is_some_and(|before| before.kind == Kind::Atom && !before.text.starts_with('#')) =>
+            {
                 token.breaks = 0;
             }
             Kind::Close if out.last().is_some_and(|before| before.kind == Kind::Open) => token.breaks = 0,
@@ -147,7 +149,8 @@ fn break_lines(tokens: &mut [Token<'_>]) {
                     tokens[index].breaks = tokens[index].breaks.max(1);
                 }
                 let empty = tokens.get(index + 1).is_some_and(|next| next.kind == Kind::Close);
-                let field = if index > 1 && tokens[index - 1].kind == Kind::Colon { tokens[index - 2].text } else { "" };
+                let field =
+                    if index > 1 && tokens[index - 1].kind == Kind::Colon { tokens[index - 2].text } else { "" };
                 let itemwise = !empty && (depth == 0 || depth == 1 && field == "cases");
                 let listed = depth == 1 && field != "output" || field == "lines";
                 let block = !empty && (itemwise || opens_block(&tokens[index + 1..], listed));
@@ -293,9 +296,8 @@ fn expression<'a>(open: &'a str, inner: &str, close: &'a str) -> Option<Written<
 /// Whether a text is meant for readers: no expression.
 fn is_prose(frame: &Frame, pairs: &[Pair]) -> bool {
     let pair = &pairs[frame.pair];
-    let of_readers = [
-        "name", "title", "source", "exhibit", "section", "doc", "unit", "reason", "printed", "meant", "code",
-    ];
+    let of_readers =
+        ["name", "title", "source", "exhibit", "section", "doc", "unit", "reason", "printed", "meant", "code"];
     match &frame.key {
         Some((key, false)) => of_readers.contains(&key.as_str()),
         // The reasons of assumptions and domains: the second of a pair.
