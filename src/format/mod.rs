@@ -21,9 +21,9 @@ use crate::table::scan::{self, Kind, Token};
 /// ```
 /// use umbrage::diag::Source;
 ///
-/// let table = "(language:1, name:\"half\", hit_policy:First, inputs:{\"x\":Range(from:0,to:1)},
+/// let table = "(language:1, name:\"dim\", hit_policy:First, inputs:{\"x\":Range(from:0,to:1)},
 ///     output:Number(), cases:[(id:1, when:true, value:\"x/2\")], default:0)";
-/// let formatted = umbrage::format::format(&Source::new("half.ron", table)).expect("a table");
+/// let formatted = umbrage::format::format(&Source::new("dim.ron", table)).expect("a table");
 /// assert!(formatted.contains("        (id: 1, when: true, value: \"x / 2\"),\n"));
 /// ```
 ///
