@@ -56,6 +56,8 @@ pub struct Source {
     pub name: String,
     /// The text.
     pub text: String,
+    /// Where each line begins; generated code names many lines.
+    lines: Vec<usize>,
 }
 
 impl Source {
@@ -66,7 +68,9 @@ impl Source {
             Some(rest) => rest.to_owned(),
             None => text,
         };
-        Arc::new(Self { name: name.into(), text })
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let lines = [0].into_iter().chain(ends.map(|(end, _)| end + 1)).collect();
+        Arc::new(Self { name: name.into(), text, lines })
     }
 
     /// Line and column of a byte offset, both counted from 1, columns in characters.
@@ -75,10 +79,9 @@ impl Source {
         while !self.text.is_char_boundary(offset) {
             offset -= 1;
         }
-        let before = &self.text[..offset];
-        let line = before.matches('\n').count() + 1;
-        let start = before.rfind('\n').map_or(0, |i| i + 1);
-        (line, before[start..].chars().count() + 1)
+        let line = self.lines.partition_point(|start| *start <= offset);
+        let start = self.lines[line - 1];
+        (line, self.text[start..offset].chars().count() + 1)
     }
 
     /// The line a byte offset is on, counted from 1.

@@ -92,7 +92,8 @@ fn dead(study: &mut Study<'_>) -> Vec<Dead> {
 fn covering(study: &mut Study<'_>, row: usize, within: Set) -> Vec<usize> {
     let guard = study.space.sets.and(study.rows.guards[row], within);
     let mut found = Vec::new();
-    for earlier in 0..row {
+    let earlier: Vec<usize> = study.nearby.of(row).take_while(|other| *other < row).collect();
+    for earlier in earlier {
         let taken = study.rows.taken[earlier];
         if study.space.sets.meets(guard, taken) {
             let both = study.space.sets.and(guard, taken);
@@ -114,7 +115,7 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> = warned.map(|dead| never_taken(program, dead)).collect();
     for row in 0..program.rows.len() {
         let reached = study.space.can_meet(study.rows.taken[row], study.assumed);
-        if !reached && !dead.iter().any(|dead| dead.row == row) {
+        if !reached && dead.binary_search_by_key(&row, |dead| dead.row).is_err() {
             found.push(not_reached(study, row));
         }
     }
