@@ -9,7 +9,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use codespan_reporting::diagnostic as codespan;
-use codespan_reporting::files::SimpleFile;
+use codespan_reporting::files::{self, Files};
 use codespan_reporting::term;
 
 /// A range of bytes in a [`Source`].
@@ -238,6 +238,33 @@ pub mod codes {
     pub const FOREIGN_INPUT: Code = Code("U0904");
 }
 
+/// A source as what excerpts are taken from: its lines are known already.
+struct Excerpts<'s>(&'s Source);
+
+impl<'s> Files<'s> for Excerpts<'s> {
+    type FileId = ();
+    type Name = &'s str;
+    type Source = &'s str;
+
+    fn name(&'s self, (): ()) -> Result<&'s str, files::Error> {
+        Ok(&self.0.name)
+    }
+
+    fn source(&'s self, (): ()) -> Result<&'s str, files::Error> {
+        Ok(&self.0.text)
+    }
+
+    fn line_index(&'s self, (): (), offset: usize) -> Result<usize, files::Error> {
+        Ok(self.0.lines.partition_point(|start| *start <= offset) - 1)
+    }
+
+    fn line_range(&'s self, (): (), line: usize) -> Result<std::ops::Range<usize>, files::Error> {
+        let lines = &self.0.lines;
+        let start = lines.get(line).ok_or(files::Error::LineTooLarge { given: line, max: lines.len() - 1 })?;
+        Ok(*start..lines.get(line + 1).copied().unwrap_or(self.0.text.len()))
+    }
+}
+
 /// A place that a diagnostic speaks about.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
@@ -314,7 +341,7 @@ impl Diagnostic {
             .with_message(message)
             .with_labels_iter(labels)
             .with_notes(self.notes.clone());
-        let file = SimpleFile::new(&source.name, &source.text);
+        let file = Excerpts(source);
         // A note is nothing to mend: its place is named, but no excerpt of the source shown.
         let display_style = match self.severity {
             Severity::Note => term::DisplayStyle::Medium,

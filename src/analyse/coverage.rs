@@ -3,6 +3,8 @@
 //! A default is a legitimate part of a table, so unclaimed states are a note.
 //! A case that can never be taken is a warning: somebody wrote it for a reason.
 
+use std::collections::HashSet;
+
 use super::sets::Set;
 use super::study::Study;
 use super::words;
@@ -206,7 +208,8 @@ fn uncovered(study: &mut Study<'_>, unclaimed: Set) -> Diagnostic {
         true => note,
         false => note.help(format!("the assumptions admit {admitted} of them")),
     };
-    let id = (1..).find(|id| program.rows.iter().all(|row| row.id != *id)).unwrap_or_default();
+    let taken: HashSet<u32> = program.rows.iter().map(|row| row.id).collect();
+    let id = (1..).find(|id| !taken.contains(id)).unwrap_or_default();
     let when = shown.first().map_or("true", String::as_str);
     note.help(format!("to claim them: Case(id: {id}, when: \"{when}\", value: ...)"))
 }

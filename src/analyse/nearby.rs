@@ -45,8 +45,9 @@ impl Nearby {
             };
             hull.map_or(0, |hull| hull.iter().fold(self.all[place], |rows, levels| rows & in_digit(levels)))
         };
-        let bits = |word: u64| (0..64).filter(move |bit| word >> bit & 1 == 1);
-        (0..self.all.len()).flat_map(move |place| bits(word(place)).map(move |bit| 64 * place + bit))
+        let words = (0..self.all.len()).map(move |place| (place, word(place))).filter(|(_, word)| *word != 0);
+        // The rows of a word are its bits, as the levels of a set are.
+        words.flat_map(|(place, word)| LevelSet(word).iter().map(move |bit| 64 * place + usize::from(bit)))
     }
 }
 

@@ -7,8 +7,6 @@ use super::study::Study;
 use super::words;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{CondId, ExprId, LevelKind, LevelSet, Program};
-use crate::table::expr::{Expr, ExprKind};
-use crate::table::{CaseBody, Table};
 
 /// Everything about style.
 pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
@@ -68,24 +66,9 @@ fn mergeable(study: &mut Study<'_>) -> Vec<Diagnostic> {
 
 /// Constants as written that no `f32` equals: one note for all of them.
 fn inexact(program: &Program) -> Option<Diagnostic> {
-    // Constants have no places in a program, but its source is that of a well-formed table.
-    let table = Table::parse(program.source.clone()).ok()?;
-    let mut numbers: Vec<(f64, Span)> = Vec::new();
-    for case in &table.cases {
-        if let CaseBody::Rows { when, lines } = &case.body {
-            constants(when, &mut numbers);
-            for line in lines {
-                constants(&line.value, &mut numbers);
-                line.condition.iter().for_each(|condition| constants(condition, &mut numbers));
-            }
-        }
-    }
-    table.names.iter().for_each(|named| constants(&named.value, &mut numbers));
-    constants(&table.default, &mut numbers);
-    numbers.retain(|(number, _)| f64::from(*number as f32) != *number);
     let mut seen: BTreeMap<u64, (f64, Span)> = BTreeMap::new();
-    for (number, span) in numbers {
-        seen.entry(number.to_bits()).or_insert((number, span));
+    for (number, span) in &program.written.inexact {
+        seen.entry(number.to_bits()).or_insert((*number, *span));
     }
     let (_, (first, span)) = seen.iter().min_by_key(|(_, (_, span))| span.start)?;
     let others: Vec<String> = seen.values().filter(|(number, _)| number != first).map(|(n, _)| n.to_string()).collect();
@@ -95,13 +78,6 @@ fn inexact(program: &Program) -> Option<Diagnostic> {
         true => note,
         false => note.help(format!("the same goes for {}", words::list(&others))),
     })
-}
-
-fn constants(expr: &Expr, found: &mut Vec<(f64, Span)>) {
-    if let ExprKind::Number(number) = expr.kind {
-        found.push((number, expr.span));
-    }
-    expr.parts().into_iter().for_each(|part| constants(part, found));
 }
 
 /// Names of levels whose constants would be the same in generated code, where constants are upper case.

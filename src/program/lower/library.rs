@@ -11,7 +11,7 @@ use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
 use crate::program::pool;
-use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row};
+use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row, Written};
 use crate::table::{self, FunctionBody, HitPolicy, Table, names};
 
 /// Checks a table of functions.
@@ -249,6 +249,7 @@ impl<'t> Lowering<'t> {
             continuity: Vec::new(),
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
+            written: Written::default(),
         })
     }
 
