@@ -91,8 +91,7 @@ impl Source {
 
     /// FNV-1a, 64 bits, of the text: tells whether something was made from this very text.
     pub fn fingerprint(&self) -> u64 {
-        let bytes = self.text.bytes();
-        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+        fnv1a(self.text.bytes())
     }
 
     /// Byte offset of a line and column, both counted from 1, columns in characters.
@@ -101,6 +100,12 @@ impl Source {
         let rest = &text[start.min(text.len())..];
         start + rest.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum::<usize>()
     }
+}
+
+/// FNV-1a, 64 bits.
+pub(crate) fn fnv1a(bytes: impl IntoIterator<Item = u8>) -> u64 {
+    let bytes = bytes.into_iter();
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// How bad a diagnostic is.

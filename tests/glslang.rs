@@ -21,6 +21,9 @@ fn glslang_accepts_every_version() {
     for table in ["tables/smsr.ron", "tables/rsmss.ron"] {
         let program = Program::read(table).unwrap_or_else(|error| panic!("{error}"));
         for shape in Shape::ALL {
+            if shape == Shape::Gathered && program.fetched.is_empty() {
+                continue;
+            }
             let proved = Plan::proved(&program, shape).unwrap_or_else(|error| panic!("{error}"));
             for (version, stage) in
                 [(GlslVersion::V450, "comp"), (GlslVersion::V330, "frag"), (GlslVersion::Es300, "frag")]

@@ -2,6 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  fnv1a b51ffb290c3a5299, 31 cases
+// Inputs: fnv1a 907f548909b50c6e, of texts, weights and options
 // Plan:   ordered
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Cost:   expected tests 11.435, as written 20.427; at most 4.177 more than the optimum

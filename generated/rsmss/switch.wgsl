@@ -2,6 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  fnv1a b51ffb290c3a5299, 31 cases
+// Inputs: fnv1a b6fa2dc8a8549679, of texts, weights and options
 // Plan:   switch
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each

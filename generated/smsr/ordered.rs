@@ -2,6 +2,7 @@
 // Shadow map silhouette revectorization: visibility of a lit fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  fnv1a 3e82e40ab73226cb, 12 cases
+// Inputs: fnv1a 587cba5663c6c455, of texts, weights and options
 // Plan:   ordered
 // Weight: profile smsr.ron, 13113 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Cost:   expected tests 3.625, as written 5.375; optimal

@@ -5,7 +5,9 @@
 //! of the run was checked, proved, emitted and validated, each through a
 //! temporary file beside its place, so that a failure leaves nothing behind.
 
+mod batch;
 mod evidence;
+mod stamp;
 mod tables;
 
 use std::collections::BTreeMap;
@@ -19,8 +21,9 @@ use crate::program::Program;
 use crate::table::io_reason;
 use crate::tuned::{Auto, Tuned};
 
+pub use batch::{Batch, Request, run};
 pub use evidence::{NamedProfile, beside, profile_of, tuned_in, weigh};
-pub use tables::Tables;
+pub use tables::{Errors, Tables};
 
 /// What to make of each table.
 #[derive(Debug, Clone)]

@@ -1,60 +1,57 @@
 //! What a build script calls.
 //!
 //! ```no_run
-//! # fn main() -> Result<(), umbrage::diag::Failure> {
 //! // build.rs
-//! umbrage::build::Tables::new("tables").profile("profiles/smsr.ron").wgsl().glsl(450).compile()?;
-//! # Ok(())
-//! # }
+//! fn main() -> Result<(), umbrage::build::Errors> {
+//!     umbrage::build::Tables::new("tables").wgsl().glsl(450).rust().compile()?;
+//!     Ok(())
+//! }
 //! ```
 //!
 //! Files go to `OUT_DIR`, one folder per table, and are included from there:
 //! `include_str!(concat!(env!("OUT_DIR"), "/smsr/ordered.wgsl"))`.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{NamedProfile, Options, find_tables, weigh, write};
-use crate::analyse::{self, Levels};
+use super::{Batch, Options, Request, run, stamp, write};
+use crate::analyse::Level;
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::emit::{GlslVersion, Target};
 use crate::plan::Shape;
-use crate::profile;
-use crate::program::Program;
-use crate::table::Table;
 
-/// Tables to be compiled by a build script.
+/// The variable that names a directory for copies that people can read.
+const COPIES: &str = "UMBRAGE_OUT_DIR";
+
+/// Tables to be compiled by a build script. Each method is an option of `umbrage build`.
 #[derive(Debug, Clone)]
+#[must_use = "nothing happens before `compile`"]
 pub struct Tables {
-    path: PathBuf,
-    tuned: Option<PathBuf>,
-    profiles: Vec<PathBuf>,
-    options: Options,
+    request: Request,
     output: Option<PathBuf>,
-    problem: Option<Failure>,
+    problems: Vec<Failure>,
 }
 
 impl Tables {
-    /// The table in a file, or all tables in a directory.
+    /// The table in a file, or all tables in a directory. Paths are relative to the directory of `Cargo.toml`.
     pub fn new(path: impl Into<PathBuf>) -> Self {
         let options = Options { shapes: Vec::new(), targets: Vec::new(), auto: false, ..Options::default() };
-        Self { path: path.into(), tuned: None, profiles: Vec::new(), options, output: None, problem: None }
+        let request = Request { paths: vec![path.into()], options, ..Request::default() };
+        Self { request, output: None, problems: Vec::new() }
     }
 
-    /// Plans for what this profile counted; each table takes the profiles of its own name.
-    #[must_use]
-    pub fn profile(mut self, path: impl Into<PathBuf>) -> Self {
-        self.profiles.push(path.into());
+    /// Another table, or another directory of tables.
+    pub fn also(mut self, path: impl Into<PathBuf>) -> Self {
+        self.request.paths.push(path.into());
         self
     }
 
     /// Emits WGSL.
-    #[must_use]
     pub fn wgsl(self) -> Self {
         self.target(Target::Wgsl)
     }
 
     /// Emits GLSL of a version: 450, 330, or 300 for ES 3.0. There are no others, as [`Self::compile`] will say.
-    #[must_use]
     pub fn glsl(mut self, version: u32) -> Self {
         let version = match version {
             450 => GlslVersion::V450,
@@ -63,133 +60,220 @@ impl Tables {
             _ => {
                 let error = Diagnostic::error(codes::NOT_APPLICABLE, format!("GLSL {version} is no target"));
                 let error = error.help("the versions are: 450, 330, and 300 for ES 3.0");
-                self.problem.get_or_insert_with(|| Failure::bare("", error));
+                self.problems.push(Failure::bare("", error));
                 return self;
             }
         };
         self.target(Target::Glsl(version))
     }
 
+    /// Emits a Rust module.
+    pub fn rust(self) -> Self {
+        self.target(Target::Rust)
+    }
+
     /// Emits a language; without any, WGSL.
-    #[must_use]
     pub fn target(mut self, target: Target) -> Self {
-        self.options.targets.push(target);
+        self.request.options.targets.push(target);
         self
     }
 
     /// Makes a plan of this shape; without any, `ordered`.
-    #[must_use]
     pub fn plan(mut self, shape: Shape) -> Self {
-        self.options.shapes.push(shape);
+        self.request.options.shapes.push(shape);
         self
     }
 
-    /// Makes what `umbrage tune` chose, by the files in a directory; where it chose nothing, `switch`, or `ladder`
-    /// where the key is too large.
-    #[must_use]
-    pub fn auto(mut self, tuned: impl Into<PathBuf>) -> Self {
-        self.options.auto = true;
-        self.tuned = Some(tuned.into());
+    /// Makes what `umbrage tune` chose; where it chose nothing, `switch`, or `ladder` where the key is too large.
+    pub fn auto(mut self) -> Self {
+        self.request.options.auto = true;
+        self
+    }
+
+    /// The directory of what `umbrage tune` chose; without, `tuned` beside the directory of the tables.
+    pub fn tuned(mut self, directory: impl Into<PathBuf>) -> Self {
+        self.request.tuned = Some(directory.into());
+        self
+    }
+
+    /// For [`Self::auto`], only what was chosen on this device.
+    pub fn device(mut self, name: impl Into<String>) -> Self {
+        self.request.device = Some(name.into());
+        self
+    }
+
+    /// Plans for what this profile counted; each table takes the profiles of its own name. A table that is in none
+    /// of them takes `profiles/TABLE.ron` beside the directory of the tables, if there is one.
+    pub fn profile(mut self, path: impl Into<PathBuf>) -> Self {
+        self.request.profiles.push(path.into());
         self
     }
 
     /// Lets plans do anything where a table's assumptions do not hold.
-    #[must_use]
     pub fn assume(mut self) -> Self {
-        self.options.assume = true;
+        self.request.options.assume = true;
+        self
+    }
+
+    /// Shows findings of this code as warnings, whatever they are by themselves.
+    pub fn warn(self, code: &str) -> Self {
+        self.level(code, Level::Warn)
+    }
+
+    /// Fails if there are findings of this code.
+    pub fn deny(self, code: &str) -> Self {
+        self.level(code, Level::Deny)
+    }
+
+    /// Does not show findings of this code.
+    pub fn allow(self, code: &str) -> Self {
+        self.level(code, Level::Allow)
+    }
+
+    fn level(mut self, code: &str, level: Level) -> Self {
+        if let Err(message) = self.request.levels.set(code, level) {
+            self.problems.push(Failure::bare("", Diagnostic::error(codes::NOT_APPLICABLE, message)));
+        }
         self
     }
 
     /// Puts the files elsewhere than into `OUT_DIR`.
-    #[must_use]
     pub fn output(mut self, directory: impl Into<PathBuf>) -> Self {
         self.output = Some(directory.into());
         self
     }
 
-    /// Checks, proves, emits and validates every table, and writes the files.
-    /// Tells Cargo what to watch, and shows findings as warnings. Returns where the files are.
+    /// Checks, proves, emits and validates every table, and writes the files,
+    /// those that say something new. Tells Cargo what to watch, and shows
+    /// findings as warnings. Returns the directory of the files.
+    ///
+    /// If the variable `UMBRAGE_OUT_DIR` is set, a copy goes there, into a
+    /// folder with the name of the package.
     ///
     /// # Errors
-    /// When anything is wrong with a table or a profile; then nothing is written.
-    pub fn compile(self) -> Result<PathBuf, Failure> {
-        if let Some(problem) = self.problem {
-            return Err(problem);
-        }
-        let output = self.output.clone().or_else(|| std::env::var_os("OUT_DIR").map(PathBuf::from));
-        let Some(output) = output else {
+    /// When anything is wrong with any table or profile; then nothing is written.
+    pub fn compile(mut self) -> Result<PathBuf, Errors> {
+        let own = std::env::var_os("OUT_DIR").map(PathBuf::from);
+        let Some(output) = self.output.take().or_else(|| own.clone()) else {
             let error = Diagnostic::error(codes::UNWRITABLE, "there is no place for the generated files");
-            return Err(Failure::bare("", error.help("call this from a build script, or name a directory: `output`")));
+            let error = error.help("call this from a build script, or name a directory: `output`");
+            self.problems.push(Failure::bare("", error));
+            return Err(Errors(self.problems));
         };
-        let mut options = self.options;
+        if !self.problems.is_empty() {
+            return Err(Errors(self.problems));
+        }
+        let options = &mut self.request.options;
         if options.shapes.is_empty() && !options.auto {
             options.shapes.push(Shape::Ordered);
         }
         if options.targets.is_empty() {
             options.targets.push(Target::Wgsl);
         }
-        watch(&self.path);
-        if let Some(tuned) = &self.tuned {
-            watch(tuned);
-            options.tuned = super::tuned_in(tuned)?;
+        let copies = copies();
+        println!("cargo::rerun-if-env-changed={COPIES}");
+        if copies.is_none()
+            && let Some(fresh) = own.as_ref().and_then(|own| stamp::fresh(own, &self.request, &output))
+        {
+            fresh.inputs.iter().for_each(|input| watch(input));
+            fresh.warnings.iter().for_each(|warning| warn(warning));
+            return Ok(output);
         }
-        let mut profiles: Vec<NamedProfile> = Vec::new();
-        for path in &self.profiles {
-            watch(path);
-            profiles.push((path.clone(), profile::read(path)?));
+        let batch = run(&self.request);
+        batch.inputs.iter().for_each(|input| watch(input));
+        let warnings = warnings(&batch);
+        warnings.iter().for_each(|warning| warn(warning));
+        if batch.failed() {
+            return Err(Errors::of(batch));
         }
-        let mut files = Vec::new();
-        for path in find_tables(&self.path)? {
-            watch(&path);
-            let table = Table::read(&path)?;
-            // An exhibit is built only if it was named.
-            if self.path.is_dir() && table.exhibit.is_some() {
-                continue;
-            }
-            watch_imports(&table);
-            let programs = Program::check_all(&table)?;
-            for program in &programs {
-                warn(program)?;
-            }
-            for program in programs.iter().filter(|program| program.function.is_none()) {
-                for warning in weigh(program, &profiles, &mut options)? {
-                    println!("cargo::warning={}", warning.message);
-                }
-            }
-            files.extend(super::programs(&programs, &options)?.files);
+        let files = batch.files();
+        for directory in [Some(&output), copies.as_ref()].into_iter().flatten() {
+            write(directory, &files).map_err(|failure| Errors(vec![failure]))?;
         }
-        write(&output, &files)?;
+        if let Some(own) = own {
+            stamp::leave(&own, &self.request, &output, &warnings, &batch.inputs, &files);
+        }
         Ok(output)
     }
 }
 
-/// Fails if a table contradicts itself, and shows Cargo what is questionable.
-fn warn(program: &Program) -> Result<(), Failure> {
-    let findings = analyse::problems(program, &Levels::default());
-    if findings.iter().any(|finding| finding.severity == Severity::Error) {
-        return Err(Failure { source: program.source.clone(), diagnostics: findings });
-    }
-    for finding in findings {
-        let place = finding.labels.first().map_or(String::new(), |label| {
-            let (line, column) = program.source.line_column(label.span.start);
-            format!(":{line}:{column}")
-        });
-        println!("cargo::warning={}{place}: {} [{}]", program.source.name, finding.message, finding.code);
-    }
-    Ok(())
+/// Where copies go that people can read.
+fn copies() -> Option<PathBuf> {
+    let directory = PathBuf::from(std::env::var_os(COPIES).filter(|directory| !directory.is_empty())?);
+    Some(match std::env::var_os("CARGO_PKG_NAME") {
+        Some(package) => directory.join(package),
+        None => directory,
+    })
 }
 
-/// Has Cargo watch what a table imports, which may lie elsewhere.
-fn watch_imports(table: &Table) {
-    for imported in table.imports.iter().filter_map(|import| import.table.as_deref()) {
-        watch(Path::new(&imported.source.name));
-        watch_imports(imported);
+/// The warnings of a run, each with its place, on one line.
+fn warnings(batch: &Batch) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for failure in &batch.messages {
+        for finding in failure.diagnostics.iter().filter(|finding| finding.severity == Severity::Warning) {
+            let place = finding.labels.first().map_or(String::new(), |label| {
+                let (line, column) = failure.source.line_column(label.span.start);
+                format!("{}:{line}:{column}: ", failure.source.name)
+            });
+            warnings.push(format!("{place}{} [{}]", finding.message, finding.code).replace('\n', " "));
+        }
     }
+    warnings
+}
+
+fn warn(warning: &str) {
+    println!("cargo::warning={warning}");
 }
 
 fn watch(path: &Path) {
     println!("cargo::rerun-if-changed={}", path.display());
 }
+
+/// Why tables could not be compiled: everything that is wrong with all of them.
+///
+/// A build script that returns them from `main` shows them as they are meant to be read.
+#[derive(Clone)]
+pub struct Errors(Vec<Failure>);
+
+impl Errors {
+    /// The errors of a run. Its warnings have been shown.
+    fn of(batch: Batch) -> Self {
+        let mut failures = batch.messages;
+        for failure in &mut failures {
+            failure.diagnostics.retain(|found| found.severity == Severity::Error);
+        }
+        failures.retain(|failure| !failure.diagnostics.is_empty());
+        Self(failures)
+    }
+
+    /// The errors, by what they are about.
+    pub fn failures(&self) -> &[Failure] {
+        &self.0
+    }
+}
+
+impl fmt::Display for Errors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for failure in &self.0 {
+            writeln!(f, "{failure}\n")?;
+        }
+        let first = self.0.iter().find_map(|failure| Some((failure, failure.diagnostics.first()?)));
+        let Some((failure, first)) = first else { return Ok(()) };
+        if failure.source.name.ends_with(".ron") {
+            write!(f, "`umbrage check {}` checks without building; ", failure.source.name)?;
+        }
+        write!(f, "`umbrage explain {}` says at length what {} means", first.code, first.code)
+    }
+}
+
+impl fmt::Debug for Errors {
+    /// As they are displayed: this is what Rust prints when `main` returns them.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the tables cannot be compiled\n\n{self}")
+    }
+}
+
+impl std::error::Error for Errors {}
 
 #[cfg(test)]
 mod tests {
@@ -203,10 +287,32 @@ mod tests {
         let wgsl = std::fs::read_to_string(output.join("smsr/ordered.wgsl")).unwrap_or_else(|e| panic!("{e}"));
         assert!(wgsl.contains("fn smsr_key("));
         assert!(output.join("smsr/ordered.450.glsl").exists() && !output.join("smsr/ladder.wgsl").exists());
-        let failure = Tables::new("tables").glsl(110).compile().expect_err("no such version");
-        assert_eq!(failure.diagnostics[0].message, "GLSL 110 is no target");
-        let other = Tables::new("tables/smsr.ron").profile("tables/smsr.ron").output(place.path()).compile();
-        let message = &other.expect_err("not a profile").diagnostics[0].message;
-        assert!(message.starts_with("this is not a profile"), "{message}");
+    }
+
+    /// The messages, one line each.
+    fn errors(tables: Tables, place: &Path) -> Vec<String> {
+        let errors = tables.output(place).compile().expect_err("wrong");
+        assert!(std::fs::read_dir(place).is_ok_and(|mut files| files.next().is_none()), "nothing was written");
+        let found = errors.failures().iter().flat_map(|failure| &failure.diagnostics);
+        found.map(|diagnostic| diagnostic.message.clone()).collect()
+    }
+
+    #[test]
+    fn all_errors_are_told() {
+        let place = tempfile::tempdir().unwrap_or_else(|e| panic!("{e}"));
+        let found = errors(Tables::new("tables").glsl(110).deny("U9999"), place.path());
+        assert_eq!(found[0], "GLSL 110 is no target");
+        assert!(found[1].starts_with("there is no finding `U9999`; the findings are: "), "{found:?}");
+        let tables = Tables::new("tables/smsr.ron").profile("tables/smsr.ron").also("none.ron").also("README.md");
+        let found = errors(tables, place.path());
+        assert!(found[0].starts_with("this is not a profile"), "{found:?}");
+        assert!(found[1].starts_with("cannot be read"), "{found:?}");
+        assert_eq!(found.len(), 3, "{found:?}");
+        let errors = Tables::new("none.ron").output(place.path()).compile().expect_err("wrong");
+        let text = format!("{errors:?}");
+        assert!(text.starts_with("the tables cannot be compiled\n\nerror[U0001]: none.ron: "), "{text}");
+        let last =
+            "`umbrage check none.ron` checks without building; `umbrage explain U0001` says at length what U0001 means";
+        assert!(text.ends_with(last), "{text}");
     }
 }

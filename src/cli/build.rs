@@ -6,14 +6,9 @@ use std::path::PathBuf;
 use super::plan::{self, PlanArgument};
 use super::report::{Format, Report};
 use super::{Outcome, Result, levels, parse_target};
-use crate::analyse::Levels;
-use crate::build::{self, Built, NamedProfile, Options};
-use crate::diag::{Diagnostic, Failure, Severity, codes};
+use crate::build::{self, Built, Options, Request};
 use crate::emit::Target;
-use crate::profile;
 use crate::program::Program;
-use crate::table::Table;
-use crate::tuned::slug;
 
 /// Arguments of `umbrage build`.
 #[derive(clap::Args)]
@@ -24,7 +19,7 @@ pub(super) struct Arguments {
     /// Directory for the generated files, one folder per table
     #[arg(long, short, value_name = "DIR", default_value = "generated")]
     output: PathBuf,
-    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit; and auto, what
+    /// Code shapes: ladder, ordered, nested, gathered, tree, switch, switch_buffer, coefficients, orbit; and auto, what
     /// `umbrage tune` chose, or else switch, or ladder where the key is too large [default: ladder,ordered,switch,auto]
     #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = plan::parse_plan)]
     plan: Vec<PlanArgument>,
@@ -50,119 +45,41 @@ pub(super) struct Arguments {
 
 /// Builds every table. Nothing is written unless all of them are right.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let mut options = Options { assume: arguments.assume, ..Options::default() };
-    if !arguments.plan.is_empty() {
-        (options.shapes, options.auto) = plan::split(&arguments.plan);
+    let request = arguments.request();
+    let batch = build::run(&request);
+    for message in &batch.messages {
+        report.failure(message);
     }
-    if !arguments.target.is_empty() {
-        options.targets.clone_from(&arguments.target);
+    if batch.failed() {
+        return Ok(Outcome::Failed);
     }
-    let given: Vec<NamedProfile> = arguments
-        .profile
-        .iter()
-        .map(|path| Ok((path.clone(), profile::read(path)?)))
-        .collect::<std::result::Result<_, Failure>>()?;
-    let levels = arguments.levels.levels();
-    let mut done: Vec<(Vec<Program>, Built)> = Vec::new();
-    let mut outcome = Outcome::Clean;
-    for path in &arguments.paths {
-        let evidence = Evidence { given: &given, profiles: build::beside(path, "profiles") };
-        if options.auto {
-            let directory = arguments.tuned.clone().or_else(|| build::beside(path, "tuned"));
-            options.tuned = directory.map_or(Ok(Vec::new()), |directory| build::tuned_in(&directory))?;
-            let device = arguments.device.as_deref().map(slug);
-            options.tuned.retain(|tuned| device.as_ref().is_none_or(|device| slug(&tuned.device) == *device));
-        }
-        for file in build::find_tables(path)? {
-            // An exhibit is built only if it was named.
-            let result = Table::read(&file).and_then(|table| match path.is_dir() && table.exhibit.is_some() {
-                true => Ok(None),
-                false => one(&table, &evidence, &mut options, &levels, report, &done).map(Some),
-            });
-            match result {
-                Ok(None) => {}
-                Ok(Some((built, found))) => {
-                    outcome = outcome.max(found);
-                    done.push(built);
-                }
-                Err(failure) => {
-                    report.failure(&failure);
-                    outcome = Outcome::Failed;
-                }
-            }
-        }
-    }
-    if outcome == Outcome::Failed {
-        return Ok(outcome);
-    }
-    for (path, profile) in &given {
-        if !done.iter().any(|(_, built)| built.table == profile.table) {
-            let message = format!("is a profile of the table `{}`, which is not among those built", profile.table);
-            let error = Diagnostic::error(codes::OTHER_PROFILE, message).help("name its table, too, or leave it out");
-            return Err(Failure::bare(path.to_string_lossy().replace('\\', "/"), error).into());
-        }
-    }
-    let files: Vec<_> = done.iter().flat_map(|(_, built)| built.files.iter().cloned()).collect();
+    let files = batch.files();
     let written = build::write(&arguments.output, &files)?;
     if report.format == Format::Human {
-        summary(&done, &options, files.len(), written, arguments)?;
+        summary(&batch.tables, &request.options, files.len(), written, arguments)?;
     }
-    Ok(outcome)
+    Ok(if batch.warned() { Outcome::Findings } else { Outcome::Clean })
 }
 
-/// Where the profiles of tables are.
-struct Evidence<'a> {
-    given: &'a [NamedProfile],
-    profiles: Option<PathBuf>,
-}
-
-impl Evidence<'_> {
-    /// The profiles of a table: those given, or else the one that lies beside it.
-    fn of(&self, table: &str) -> std::result::Result<Vec<NamedProfile>, Failure> {
-        let given: Vec<_> = self.given.iter().filter(|(_, profile)| profile.table == table).cloned().collect();
-        match &self.profiles {
-            Some(directory) if given.is_empty() => Ok(build::profile_of(table, directory)?.into_iter().collect()),
-            _ => Ok(given),
+impl Arguments {
+    /// What the arguments ask for.
+    fn request(&self) -> Request {
+        let mut options = Options { assume: self.assume, ..Options::default() };
+        if !self.plan.is_empty() {
+            (options.shapes, options.auto) = plan::split(&self.plan);
+        }
+        if !self.target.is_empty() {
+            options.targets.clone_from(&self.target);
+        }
+        Request {
+            paths: self.paths.clone(),
+            options,
+            profiles: self.profile.clone(),
+            tuned: self.tuned.clone(),
+            device: self.device.clone(),
+            levels: self.levels.levels(),
         }
     }
-}
-
-fn one(
-    table: &Table,
-    evidence: &Evidence<'_>,
-    options: &mut Options,
-    levels: &Levels,
-    report: &Report,
-    done: &[(Vec<Program>, Built)],
-) -> std::result::Result<((Vec<Program>, Built), Outcome), Failure> {
-    let (name, source) = (table.name.value.clone(), table.source.clone());
-    if let Some((other, _)) = done.iter().find(|(_, built)| built.table == name) {
-        let other = other.first().map_or("", |program| program.source.name.as_str());
-        let message = format!("`{other}` and this file both define the table `{name}`");
-        let error =
-            Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
-        return Err(Failure::new(source, error));
-    }
-    let programs = Program::check_all(table)?;
-    // Notes are for `check`: here they would hide what was built.
-    let findings: Vec<Diagnostic> =
-        programs.iter().flat_map(|program| crate::analyse::problems(program, levels)).collect();
-    if findings.iter().any(|finding| finding.severity == Severity::Error) {
-        return Err(Failure { source, diagnostics: findings });
-    }
-    let mut found = match findings.iter().any(|finding| finding.severity == Severity::Warning) {
-        true => Outcome::Findings,
-        false => Outcome::Clean,
-    };
-    report.show(&source, &findings);
-    for program in programs.iter().filter(|program| program.function.is_none()) {
-        for warning in build::weigh(program, &evidence.of(&program.name)?, options)? {
-            report.failure(&Failure::bare("", warning));
-            found = Outcome::Findings;
-        }
-    }
-    let built = build::programs(&programs, options)?;
-    Ok(((programs, built), found))
 }
 
 fn summary(

@@ -25,7 +25,7 @@ pub(super) struct Arguments {
     /// The adapter: any, software, hardware, or a part of its name
     #[arg(long, value_name = "WHICH", default_value = "any")]
     adapter: AdapterChoice,
-    /// Code shapes: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit; and auto, what
+    /// Code shapes: ladder, ordered, nested, gathered, tree, switch, switch_buffer, coefficients, orbit; and auto, what
     /// `umbrage tune` chose on this device, or else switch, or ladder where the key is too large [default: all shapes]
     #[arg(long, value_name = "PLAN", value_delimiter = ',', value_parser = plan::parse_plan)]
     plan: Vec<PlanArgument>,

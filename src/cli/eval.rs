@@ -43,7 +43,7 @@ pub(super) struct Arguments {
     /// What computes the answers
     #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]
     executor: ExecutorArgument,
-    /// Code shape to run on the GPU: ladder, ordered, nested, tree, switch, switch_buffer, coefficients, orbit [default: ladder]
+    /// Code shape to run on the GPU: ladder, ordered, nested, gathered, tree, switch, switch_buffer, coefficients, orbit [default: ladder]
     #[arg(long, value_name = "PLAN", value_parser = parse_shape)]
     plan: Option<Shape>,
     /// The adapter: any, software, hardware, or a part of its name

@@ -7,7 +7,7 @@ use super::names::{Names, input_type};
 use super::outline::{FAN_OUT, MAX_LEVELS, Outline};
 use super::text::Text;
 use crate::plan::{Plan, Step, StepId};
-use crate::program::{CondId, Domain, InputSet, LevelKind};
+use crate::program::{CondId, Domain, InputId, InputSet, LevelKind};
 
 /// Prints steps: one function, and before it those that it calls.
 pub(super) struct Body<'a, 'p> {
@@ -30,8 +30,6 @@ pub(super) struct Body<'a, 'p> {
     pub(super) renamed: HashMap<String, String>,
     /// What the result is called in the result map of a symmetry.
     pub(super) result: String,
-    /// Behind symmetries: the parameter that says by which of them inputs are turned.
-    pub(super) turn: Option<String>,
 }
 
 impl<'a, 'p> Body<'a, 'p> {
@@ -49,7 +47,6 @@ impl<'a, 'p> Body<'a, 'p> {
             temporaries: 0,
             renamed: HashMap::new(),
             result: String::new(),
-            turn: None,
         }
     }
 
@@ -97,7 +94,6 @@ impl<'a, 'p> Body<'a, 'p> {
             }
         }
         if fetches {
-            parameters.extend(self.turn.clone().map(|turn| (turn, Type::Uint)));
             parameters.push(("site".to_owned(), Type::Site));
         }
         parameters
@@ -169,19 +165,16 @@ impl<'a, 'p> Body<'a, 'p> {
                 }
                 Step::Fetch { input, next } => {
                     let (ident, ty) = self.names.fetched(self.plan.program, input);
-                    let call = match &self.turn {
-                        Some(turn) => format!(
-                            "{}({turn}, {})",
-                            self.dialect.global(self.prefix, &format!("turned_{ident}")),
-                            self.dialect.site_argument()
-                        ),
-                        None => self.dialect.fetch(self.prefix, &ident),
-                    };
+                    let call = self.dialect.fetch(self.prefix, &ident);
                     let line = self.dialect.local(&ty, &ident, &call, self.prefix);
                     self.text.line(line);
                     if self.outline.is_function(next) {
                         return self.step(next, level);
                     }
+                    at = next;
+                }
+                Step::Gather { input, condition, next } => {
+                    self.gather(input, condition);
                     at = next;
                 }
                 Step::Switch { arms } => {
@@ -193,6 +186,23 @@ impl<'a, 'p> Body<'a, 'p> {
                 Step::Leaf(leaf) => return self.leaf(&leaf),
             }
         }
+    }
+
+    /// A fetch that is made where a condition holds, in sight of all that follows.
+    fn gather(&mut self, input: InputId, condition: CondId) {
+        let (ident, ty) = self.names.fetched(self.plan.program, input);
+        let nothing = match ty {
+            Type::Bool => "false".to_owned(),
+            Type::Float => self.dialect.number(0.0),
+            _ => self.dialect.uint(0),
+        };
+        self.text.line(self.dialect.variable(&ty, &ident, &nothing, self.prefix));
+        let mut locals = self.computed_constants(&[], &[condition]);
+        self.operands(condition, &mut locals);
+        let condition = self.condition(condition, &locals);
+        self.text.open(self.dialect.if_open(bare(&condition)));
+        self.text.line(format!("{ident} = {};", self.dialect.fetch(self.prefix, &ident)));
+        self.text.close();
     }
 
     /// Tests one after the other. Returns how many conditionals what follows is inside of.

@@ -118,6 +118,10 @@ pub(super) trait Dialect {
     fn number_later(&self, name: &str) -> String {
         format!("float {name};")
     }
+    /// Declares a local that may be assigned again.
+    fn variable(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String {
+        self.local(ty, name, value, prefix)
+    }
     /// The first line of a conditional.
     fn if_open(&self, condition: &str) -> String {
         format!("if ({condition}) {{")

@@ -13,6 +13,7 @@ use super::lookup;
 use super::names::{Names, fetches, input_type};
 use super::outline::MAX_LEVELS;
 use super::text::Text;
+use crate::diag::fnv1a;
 use crate::plan::{KeyLayout, Plan, Proved};
 use crate::program::{BinaryOp, Domain, Levels, Node, Output, Program, UnaryOp};
 
@@ -56,6 +57,7 @@ impl Writer<'_, '_> {
             text.comment(&format!("Source: {}", program.origin));
         }
         text.comment(&format!("Table:  {}, {} cases", program.fingerprint(), program.rows.len()));
+        text.comment(&format!("Inputs: {}", inputs(self.plan)));
         text.comment(&format!("Plan:   {}", self.plan.shape));
         if let Some(weighed) = &self.plan.weighed {
             text.comment(&format!("Weight: {weighed}"));
@@ -345,6 +347,12 @@ impl Writer<'_, '_> {
             self.text.gap();
         }
     }
+}
+
+/// Names everything that a file was made from: with the same version, the same name means the same file.
+fn inputs(plan: &Plan<'_>) -> String {
+    let notes = plan.notes.iter().flat_map(|note| note.bytes());
+    format!("fnv1a {:016x}, of texts, weights and options", fnv1a(plan.inputs.to_le_bytes().into_iter().chain(notes)))
 }
 
 fn describe_key(program: &Program, key: &KeyLayout) -> String {

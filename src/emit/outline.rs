@@ -57,6 +57,11 @@ impl Outline {
                     this.needs = this.needs.minus(InputSet::one(*input));
                     this.fetches = true;
                 }
+                Step::Gather { input, condition, .. } => {
+                    let after = this.needs.minus(InputSet::one(*input));
+                    this.needs = after.or(plan.pool.cond_facts(*condition).inputs);
+                    this.fetches = true;
+                }
                 Step::Coefficients { .. } => {
                     let inputs = plan.coefficients.inputs.iter();
                     this.needs = inputs.fold(this.needs, |needs, input| needs.or(InputSet::one(*input)));

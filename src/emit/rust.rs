@@ -78,6 +78,10 @@ impl Dialect for Rust {
         format!("let {name}: {} = {value};", self.ty(ty, prefix))
     }
 
+    fn variable(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String {
+        format!("let mut {name}: {} = {value};", self.ty(ty, prefix))
+    }
+
     fn number_later(&self, name: &str) -> String {
         format!("let {name}: f32;")
     }

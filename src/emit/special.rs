@@ -5,11 +5,8 @@ use super::dialect::{Type, bare, infix};
 use super::lookup::{key_words, piece, stride};
 use super::names::input_type;
 use super::terms::Locals;
-use crate::plan::{StepId, Turn};
-use crate::program::{BinaryOp, InputId, InputSet, Node, TernaryOp};
-
-/// Where a turned input comes from: the input fetched, its levels renamed, and the turns that ask for it so.
-type Way = (InputId, Option<Vec<u8>>, Vec<u32>);
+use crate::plan::{StepId, renamed};
+use crate::program::{BinaryOp, InputId, InputSet, LevelKind, TernaryOp};
 
 impl Body<'_, '_> {
     fn named(&mut self, ty: &Type, value: &str) -> String {
@@ -95,40 +92,10 @@ impl Body<'_, '_> {
         let turn = self.named(&Type::Uint, &format!("{entry} & {mask}"));
         let way = self.named(&Type::Uint, &format!("{entry} >> {}", self.dialect.uint(bits as u32)));
 
-        let mut about = (InputSet::default(), false);
-        for arm in arms {
-            about.0 = about.0.or(self.outline.needs(*arm));
-            about.1 |= self.outline.fetches(*arm);
-        }
-        let needed = self.turned_numbers(about.0);
-        let mut flags = Vec::new();
-        for (bit, index) in plan.symmetries.iter().enumerate() {
-            let flag = format!("({turn} & {}) != {}", self.dialect.uint(1 << bit), self.dialect.uint(0));
-            let flag = self.named(&Type::Bool, &flag);
-            let mut images = Vec::new();
-            for (input, image) in &program.symmetries[*index].numbers {
-                let ident = &program.inputs[input.index()].ident;
-                if needed.contains(*input) {
-                    let old = self.renamed.get(ident).unwrap_or(ident).clone();
-                    let image = self.expr(*image, &Locals::default());
-                    images.push((ident.clone(), self.dialect.select(&flag, bare(&image), &old)));
-                }
-            }
-            // All images are of the old inputs.
-            for (ident, image) in images {
-                let name = self.named(&Type::Float, &image);
-                self.renamed.insert(ident, name);
-            }
-            flags.push(flag);
-        }
-
-        self.turn = about.1.then(|| turn.clone());
-        if about.1 {
-            self.turned_fetches(&turn);
-        }
+        let needs = arms.iter().fold(InputSet::default(), |needs, arm| needs.or(self.outline.needs(*arm)));
+        let flags = self.turn_inputs(&turn, self.turned(needs));
         let comment = "The representatives, at the inputs as they are turned.";
-        let call = self.function("representative", Some(&way), about, comment, |me| me.arms(&way, 0, arms, 1));
-        self.turn = None;
+        let call = self.function("representative", Some(&way), (needs, false), comment, |me| me.arms(&way, 0, arms, 1));
         self.renamed.clear();
         let result = self.named(&Type::Result, &call);
         let mut value = format!("{result}.value");
@@ -144,107 +111,80 @@ impl Body<'_, '_> {
         self.text.line(format!("return {result};"));
     }
 
-    /// The continuous inputs that these are made of, once turned.
-    fn turned_numbers(&self, needs: InputSet) -> InputSet {
+    /// Locals for the inputs as symmetries turn them, one symmetry after the other. Returns which of them do.
+    fn turn_inputs(&mut self, turn: &str, needed: InputSet) -> Vec<String> {
+        let (plan, program) = (self.plan, self.plan.program);
+        let mut flags = Vec::new();
+        for (bit, index) in plan.symmetries.iter().enumerate() {
+            let flag = format!("({turn} & {}) != {}", self.dialect.uint(1 << bit), self.dialect.uint(0));
+            let flag = self.named(&Type::Bool, &flag);
+            let symmetry = &program.symmetries[*index];
+            let mut images: Vec<(InputId, String)> = Vec::new();
+            for (input, image) in symmetry.numbers.iter().filter(|(input, _)| needed.contains(*input)) {
+                images.push((*input, self.expr(*image, &Locals::default())));
+            }
+            let fetched = symmetry.levels.iter().filter(|(input, _)| program.fetched.contains(*input));
+            for (input, image) in fetched.filter(|(input, _)| needed.contains(*input)) {
+                let Some((source, renaming)) = renamed(image) else { continue };
+                let source = self.current(source);
+                images.push((*input, self.renaming(*input, &source, renaming.as_deref())));
+            }
+            // All images are of the old inputs.
+            let turned: Vec<(InputId, String)> = images
+                .into_iter()
+                .map(|(input, image)| (input, self.dialect.select(&flag, bare(&image), &self.current(input))))
+                .collect();
+            for (input, value) in turned {
+                let declared = &program.inputs[input.index()];
+                let name = self.named(&input_type(&declared.domain, Type::Uint), &value);
+                self.renamed.insert(declared.ident.clone(), name);
+            }
+            flags.push(flag);
+        }
+        flags
+    }
+
+    /// What an input is called here.
+    fn current(&self, input: InputId) -> String {
+        let ident = &self.plan.program.inputs[input.index()].ident;
+        self.renamed.get(ident).unwrap_or(ident).clone()
+    }
+
+    /// The level of an input with some levels renamed.
+    fn renaming(&self, input: InputId, level: &str, renaming: Option<&[u8]>) -> String {
+        if self.plan.program.levels(input).is_some_and(|levels| levels.kind == LevelKind::Bool) {
+            return match renaming {
+                None | Some([0, 1]) => level.to_owned(),
+                Some([0, 0]) => "false".to_owned(),
+                Some([1, 1]) => "true".to_owned(),
+                Some(_) => format!("!{level}"),
+            };
+        }
+        let changed = renaming.unwrap_or_default().iter().zip(0_u8..).filter(|(to, from)| *to != from);
+        changed.fold(level.to_owned(), |other, (to, from)| {
+            let condition = format!("{level} == {}", self.dialect.uint(u32::from(from)));
+            self.dialect.select(&condition, &self.dialect.uint(u32::from(*to)), &other)
+        })
+    }
+
+    /// The inputs that these are made of by symmetries, as far as the key does not hold them.
+    fn turned(&self, needs: InputSet) -> InputSet {
         let program = self.plan.program;
         let mut all = needs;
         for _ in &self.plan.symmetries {
-            for index in &self.plan.symmetries {
-                for (input, image) in &program.symmetries[*index].numbers {
+            for symmetry in self.plan.symmetries.iter().map(|index| &program.symmetries[*index]) {
+                for (input, image) in &symmetry.numbers {
                     if all.contains(*input) {
                         all = all.or(program.pool.expr_facts(*image).inputs);
                     }
                 }
-            }
-        }
-        all.minus(program.fetched)
-    }
-
-    /// For each fetched input a function that fetches what it is turned from.
-    fn turned_fetches(&mut self, turn: &str) {
-        let plan = self.plan;
-        let mut words: Vec<usize> =
-            plan.lookup.iter().map(|e| usize::from(*e) & ((1 << plan.symmetries.len()) - 1)).collect();
-        words.sort_unstable();
-        words.dedup();
-        let fetched: Vec<InputId> = plan.reachable().into_iter().filter_map(|step| plan.fetch_of(step)).collect();
-        let mut fetched_once = fetched;
-        fetched_once.sort_unstable();
-        fetched_once.dedup();
-        for input in fetched_once {
-            // The words that lead to the same source, with the same levels renamed, share a way.
-            let mut ways: Vec<(InputId, Option<Vec<u8>>, Vec<u32>)> = Vec::new();
-            for word in &words {
-                let mut pool = plan.pool.clone();
-                let Some(way) = Turn::of_word(plan.program, &mut pool, &plan.symmetries, *word) else { continue };
-                let source = way.source(&pool, input);
-                let (source, renaming) = source.unwrap_or((input, None));
-                match ways.iter_mut().find(|(s, r, _)| (*s, r) == (source, &renaming)) {
-                    Some((.., words)) => words.push(*word as u32),
-                    None => ways.push((source, renaming, vec![*word as u32])),
+                for (input, image) in &symmetry.levels {
+                    if let Some((source, _)) = renamed(image).filter(|_| all.contains(*input)) {
+                        all = all.or(InputSet::one(source));
+                    }
                 }
             }
-            self.turned_fetch(turn, input, &ways);
         }
-    }
-
-    fn turned_fetch(&mut self, turn: &str, input: InputId, ways: &[Way]) {
-        let program = self.plan.program;
-        let declared = &program.inputs[input.index()];
-        let ty = input_type(&declared.domain, Type::Uint);
-        let name = self.dialect.global(self.prefix, &format!("turned_{}", declared.ident));
-        let parameters = [(turn.to_owned(), Type::Uint), ("site".to_owned(), Type::Site)];
-        let outer = std::mem::take(&mut self.text);
-        self.text.comment(&format!("{} as it is behind symmetries.", declared.ident));
-        self.text.open(self.dialect.function(&name, &parameters, &ty, self.prefix));
-        let Some((last, others)) = ways.split_last() else {
-            self.text = outer;
-            return;
-        };
-        if !others.is_empty() {
-            self.text.open(self.dialect.switch_open(turn));
-            for (source, renaming, words) in others {
-                let open = self.dialect.case_open(words);
-                self.text.open(open);
-                self.renamed_fetch(*source, renaming.as_deref(), &ty);
-                self.text.close();
-            }
-            self.text.line(self.dialect.case_default());
-            self.text.close();
-        }
-        self.renamed_fetch(last.0, last.1.as_deref(), &ty);
-        self.text.close();
-        self.text.gap();
-        self.functions += &std::mem::replace(&mut self.text, outer).finish();
-    }
-
-    fn renamed_fetch(&mut self, source: InputId, renaming: Option<&[u8]>, ty: &Type) {
-        let ident = &self.plan.program.inputs[source.index()].ident;
-        let fetch = self.dialect.fetch(self.prefix, ident);
-        let Some(renaming) = renaming else {
-            self.text.line(format!("return {fetch};"));
-            return;
-        };
-        let level = self.named(ty, &fetch);
-        let changed = renaming.iter().zip(0_u8..).filter(|(to, from)| *to != from);
-        let value = changed.fold(level.clone(), |other, (to, from)| {
-            let condition = format!("{level} == {}", self.dialect.uint(u32::from(from)));
-            self.dialect.select(&condition, &self.dialect.uint(u32::from(*to)), &other)
-        });
-        self.text.line(format!("return {};", bare(&value)));
-    }
-}
-
-impl Turn {
-    /// The fetched input that stands behind one, and what becomes of its levels.
-    fn source(&self, pool: &crate::program::Pool, input: InputId) -> Option<(InputId, Option<Vec<u8>>)> {
-        if let Some((_, image)) = self.symmetry.levels.iter().find(|(known, _)| *known == input) {
-            return crate::plan::renamed(image);
-        }
-        let (_, image) = self.symmetry.numbers.iter().find(|(known, _)| *known == input)?;
-        match pool.node(*image) {
-            Node::Input(source) => Some((source, None)),
-            _ => None,
-        }
+        all
     }
 }

@@ -63,6 +63,10 @@ impl Dialect for Wgsl {
         format!("let {name} = {value};")
     }
 
+    fn variable(&self, _: &Type, name: &str, value: &str, _: &Prefix) -> String {
+        format!("var {name} = {value};")
+    }
+
     fn number_later(&self, name: &str) -> String {
         format!("var {name}: f32;")
     }

@@ -138,6 +138,7 @@ impl<'p> Builder<'p> {
             shape,
             assumed: false,
             weighed: None,
+            inputs: 0,
             certificate: None,
             notes: Vec::new(),
             pool: self.pool,
@@ -148,6 +149,11 @@ impl<'p> Builder<'p> {
             steps: self.steps,
             root,
         }
+    }
+
+    /// How many steps were made.
+    pub(super) fn len(&self) -> usize {
+        self.steps.len()
     }
 
     /// A step that was made.

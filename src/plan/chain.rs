@@ -50,14 +50,14 @@ pub(super) fn nested<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
 }
 
 /// A chain of what may be taken in some states, given by their place in the setting.
-struct Chain {
-    rows: Guarded,
-    cost: f64,
-    bound: f64,
+pub(super) struct Chain {
+    pub(super) rows: Guarded,
+    pub(super) cost: f64,
+    pub(super) bound: f64,
 }
 
 impl Chain {
-    fn new(pool: &mut Pool, setting: &Setting<'_, '_>, states: &[usize], known: &Knowledge) -> Result<Self> {
+    pub(super) fn new(pool: &mut Pool, setting: &Setting<'_, '_>, states: &[usize], known: &Knowledge) -> Result<Self> {
         let (tests, rows) = tests(setting, states)?;
         let (order, bound) = tests.best();
         let guards = &setting.program.rows;

@@ -8,6 +8,7 @@
 mod build;
 mod chain;
 mod coefficients;
+mod gather;
 mod key;
 mod knowledge;
 mod orbit;
@@ -26,7 +27,7 @@ mod weights;
 
 use std::fmt;
 
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::{Diagnostic, Failure, codes, fnv1a};
 use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
 pub use coefficients::{Coefficients, Fit, Form, Piece};
@@ -34,7 +35,7 @@ pub use key::KeyLayout;
 pub use order::Certificate;
 pub use prove::{Counterexample, Proof, Refusal};
 pub use reachable::reachable;
-pub(crate) use turn::{Turn, renamed};
+pub(crate) use turn::renamed;
 pub use weights::Weights;
 
 use setting::Setting;
@@ -48,6 +49,8 @@ pub enum Shape {
     Ordered,
     /// A few tests that decide many guards, then chains in the best order: the published advice.
     Nested,
+    /// Every fetch at one place, then the chain in the best order.
+    Gathered,
     /// A graph of tests on inputs with the least expected number of them.
     Tree,
     /// The packed key selects the case through a lookup, then a `switch`.
@@ -69,10 +72,11 @@ pub enum LookupPlace {
 
 impl Shape {
     /// Every shape, in the order of reports.
-    pub const ALL: [Shape; 8] = [
+    pub const ALL: [Shape; 9] = [
         Shape::Ladder,
         Shape::Ordered,
         Shape::Nested,
+        Shape::Gathered,
         Shape::Tree,
         Shape::Switch(LookupPlace::Constants),
         Shape::Switch(LookupPlace::Buffer),
@@ -86,6 +90,7 @@ impl Shape {
             Shape::Ladder => "ladder",
             Shape::Ordered => "ordered",
             Shape::Nested => "nested",
+            Shape::Gathered => "gathered",
             Shape::Tree => "tree",
             Shape::Switch(LookupPlace::Constants) => "switch",
             Shape::Switch(LookupPlace::Buffer) => "switch_buffer",
@@ -158,20 +163,30 @@ pub enum Step {
         /// Where to go then.
         next: StepId,
     },
-    /// Goes where the lookup says; only at the root.
+    /// Fetches an input if a condition holds, and goes on either way. Only what is
+    /// fetched is looked at afterwards; such steps come before all others.
+    Gather {
+        /// The input.
+        input: InputId,
+        /// When it is needed.
+        condition: CondId,
+        /// Where to go then.
+        next: StepId,
+    },
+    /// Goes where the lookup says; only at the root or behind [`Step::Gather`].
     Switch {
         /// The ways.
         arms: Vec<StepId>,
     },
     /// The result that coefficients give, or one of the other ways, as the lookup
-    /// says: the coefficients come first in its numbering; only at the root.
+    /// says: the coefficients come first in its numbering; only at the root or behind [`Step::Gather`].
     Coefficients {
         /// The ways of states without coefficients.
         rest: Vec<StepId>,
     },
     /// Turns the inputs by symmetries, goes one of the ways, turns the result back.
     /// The lowest bits of the lookup say by which symmetries, the others which way;
-    /// only at the root.
+    /// only at the root or behind [`Step::Gather`].
     Orbit {
         /// The ways.
         arms: Vec<StepId>,
@@ -185,7 +200,7 @@ impl Step {
     pub fn next(&self) -> Vec<StepId> {
         match self {
             Step::Test { then, other, .. } => vec![*then, *other],
-            Step::Fetch { next, .. } => vec![*next],
+            Step::Fetch { next, .. } | Step::Gather { next, .. } => vec![*next],
             Step::Switch { arms } | Step::Coefficients { rest: arms } | Step::Orbit { arms } => arms.clone(),
             Step::Leaf(_) => Vec::new(),
         }
@@ -214,6 +229,8 @@ pub struct Plan<'p> {
     pub assumed: bool,
     /// Where the weights come from that it was made for.
     pub weighed: Option<String>,
+    /// A hash of everything that it was made from: texts, weights and options.
+    pub inputs: u64,
     /// How good it is of its kind, where that is known.
     pub certificate: Option<Certificate>,
     /// The program's terms and those that planning made of them.
@@ -233,6 +250,15 @@ pub struct Plan<'p> {
     root: StepId,
 }
 
+/// A hash of everything that a plan is made from.
+fn inputs(program: &Program, options: &PlanOptions<'_>) -> u64 {
+    let texts = [&program.source].into_iter().chain(&program.imported).map(|source| source.fingerprint());
+    let weights = options.weights.into_iter().flat_map(|w| (0..w.count()).map(|state| w.of(state).to_bits()));
+    let origin = options.weights.map_or("", Weights::origin);
+    let options = format!("{} {} {} {origin}", env!("CARGO_PKG_VERSION"), options.shape, options.assume);
+    fnv1a(texts.chain(weights).flat_map(u64::to_le_bytes).chain(options.into_bytes()))
+}
+
 impl<'p> Plan<'p> {
     /// Plans a program.
     ///
@@ -245,6 +271,7 @@ impl<'p> Plan<'p> {
             let plan = match shape {
                 Shape::Ordered => chain::ordered(&setting),
                 Shape::Nested => chain::nested(&setting),
+                Shape::Gathered => gather::gathered(&setting),
                 Shape::Tree => tree::tree(&setting),
                 Shape::Ladder => build::ladder(program),
                 _ if program.function.is_some() && program.states.count() == 1 => {
@@ -255,7 +282,8 @@ impl<'p> Plan<'p> {
                 Shape::Orbit => orbit::plan(&setting),
             };
             let weighed = setting.weights.map(|weights| weights.origin().to_owned());
-            plan.map(|plan| Plan { assumed: options.assume, weighed, ..plan })
+            let inputs = inputs(program, &options);
+            plan.map(|plan| Plan { assumed: options.assume, weighed, inputs, ..plan })
         });
         made.map_err(|reason| {
             let message = format!("the plan `{shape}` does not suit the table `{}`", program.name);
@@ -294,10 +322,19 @@ impl<'p> Plan<'p> {
         self.root
     }
 
+    /// The first step behind those that gather.
+    pub fn behind_fetches(&self) -> StepId {
+        let mut at = self.root;
+        while let Step::Gather { next, .. } = self.step(at) {
+            at = *next;
+        }
+        at
+    }
+
     /// The input that a step fetches.
     pub fn fetch_of(&self, step: StepId) -> Option<InputId> {
         match self.step(step) {
-            Step::Fetch { input, .. } => Some(*input),
+            Step::Fetch { input, .. } | Step::Gather { input, .. } => Some(*input),
             _ => None,
         }
     }

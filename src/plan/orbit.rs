@@ -16,7 +16,7 @@ use super::key::KeyLayout;
 use super::knowledge::Knowledge;
 use super::setting::Setting;
 use super::turn::{self, Turn};
-use super::{Plan, Shape, Step, StepId};
+use super::{Plan, Shape, Step, StepId, gather};
 use crate::program::symbolic::{Machine, View};
 use crate::program::{InputId, LevelSet, Symmetry};
 
@@ -65,6 +65,7 @@ pub(super) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
         return Err("the table has none of its symmetries in any state".to_owned());
     }
     let mut builder = Builder::new(program);
+    let needs = if program.fetched.is_empty() { Vec::new() } else { gather::needs(&mut builder, setting)? };
     let claims = setting.claims()?;
     let mut steps: HashMap<usize, StepId> = HashMap::new();
     let mut levels = vec![0; program.inputs.len()];
@@ -73,7 +74,7 @@ pub(super) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     targets.dedup();
     for target in &targets {
         program.states.write(*target, &mut levels);
-        let mut known = Knowledge::none(program);
+        let mut known = Knowledge::none(program).with_fetched(program.fetched);
         for (input, _) in program.states.digits() {
             known.restrict(*input, LevelSet::one(levels[input.index()]));
         }
@@ -93,6 +94,7 @@ pub(super) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let unused = fill(setting, &mut lookup, &mut Server::new(setting, &builder, &symmetries, &arms));
     let count = arms.len();
     let root = builder.push(Step::Orbit { arms })?;
+    let root = gather::in_front(&mut builder, &needs, root)?;
     let mut plan = builder.finish(Shape::Orbit, key, lookup, root);
     plan.symmetries = symmetries;
     let before: std::collections::BTreeSet<StepId> = steps.values().copied().collect();

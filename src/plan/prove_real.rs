@@ -34,7 +34,7 @@ pub(super) fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         compares: compares(plan),
     };
     for state in &states {
-        let turn = match plan.step(plan.root()) {
+        let turn = match plan.step(plan.behind_fetches()) {
             Step::Orbit { .. } => {
                 let entry = usize::from(plan.lookup.get(*state).copied().unwrap_or_default());
                 let word = entry & ((1 << plan.symmetries.len()) - 1);
@@ -76,6 +76,7 @@ fn compares(plan: &Plan<'_>) -> bool {
     plan.reachable().into_iter().any(|step| match plan.step(step) {
         Step::Test { condition, .. } => plan.pool.compares(*condition),
         Step::Leaf(leaf) => leaf.values.iter().any(|value| plan.pool.expr_facts(*value).selects),
+        Step::Gather { condition, .. } => plan.pool.compares(*condition),
         Step::Fetch { .. } | Step::Switch { .. } | Step::Coefficients { .. } | Step::Orbit { .. } => false,
     })
 }
@@ -146,17 +147,18 @@ impl Prover<'_, '_> {
     /// The plan, step by step, with the discipline of fetching checked.
     fn run(&self, machine: &mut Machine<'_>, state: usize, turn: Option<&Turn>) -> Result<Run, String> {
         let plan = self.plan;
-        let view = turn.map_or(View::PLAIN, Turn::view);
+        // Inputs are turned by the step that says so, not before.
+        let mut view = View::PLAIN;
         let entry = plan.lookup.get(state).map(|entry| usize::from(*entry));
         let no_way = "the plan's lookup has no way for this state";
-        // In the plan's own terms, and those that stand behind them.
-        let (mut fetched, mut sources) = (InputSet::default(), InputSet::default());
+        // What is fetched on this path, and what the code may mention: that, and what is gathered on others.
+        let (mut fetched, mut declared) = (InputSet::default(), InputSet::default());
         let mut at: StepId = plan.root();
         loop {
             match plan.step(at) {
                 Step::Switch { arms } => at = *entry.and_then(|arm| arms.get(arm)).ok_or(no_way)?,
                 Step::Orbit { arms } => {
-                    turn.ok_or("a symmetry does not apply in this state")?;
+                    view = turn.ok_or("a symmetry does not apply in this state")?.view();
                     let arm = entry.map(|entry| entry >> plan.symmetries.len());
                     at = *arm.and_then(|arm| arms.get(arm)).ok_or(no_way)?;
                 }
@@ -165,35 +167,58 @@ impl Prover<'_, '_> {
                     if let Some(fit) = plan.coefficients.fits.get(entry) {
                         let pieces = fit.pieces.iter();
                         let values = pieces.map(|piece| plan.coefficients.value(machine.pool(), piece)).collect();
-                        return Ok(Run { row: fit.row, line: fit.line, values, fetched: sources });
+                        return Ok(Run { row: fit.row, line: fit.line, values, fetched });
                     }
                     at = *rest.get(entry - plan.coefficients.fits.len()).ok_or(no_way)?;
                 }
                 Step::Test { condition, then, other } => {
-                    self.only_fetched(plan.pool.cond_facts(*condition).inputs, fetched)?;
-                    at = if machine.holds(*condition, view) { *then } else { *other };
+                    self.only_fetched(self.behind(turn, view, plan.pool.cond_facts(*condition).inputs), declared)?;
+                    let holds = machine.holds(*condition, view);
+                    self.only_fetched(machine.take_looked_at(), fetched)?;
+                    at = if holds { *then } else { *other };
                 }
                 Step::Fetch { input, next } => {
-                    let behind = turn.map_or(InputSet::one(*input), |turn| turn.sources(&plan.pool, *input));
-                    if !behind.and(sources).is_empty() || !plan.program.fetched.contains(*input) {
+                    if declared.contains(*input) || view.symmetry.is_some() || !plan.program.fetched.contains(*input) {
                         return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
                     }
-                    sources = sources.or(behind);
                     fetched = fetched.or(InputSet::one(*input));
+                    declared = declared.or(InputSet::one(*input));
+                    at = *next;
+                }
+                Step::Gather { input, condition, next } => {
+                    if declared.contains(*input) || view.symmetry.is_some() || !plan.program.fetched.contains(*input) {
+                        return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
+                    }
+                    self.only_fetched(plan.pool.cond_facts(*condition).inputs, declared)?;
+                    let holds = machine.holds(*condition, view);
+                    self.only_fetched(machine.take_looked_at(), fetched)?;
+                    if holds {
+                        fetched = fetched.or(InputSet::one(*input));
+                    }
+                    declared = declared.or(InputSet::one(*input));
                     at = *next;
                 }
                 Step::Leaf(leaf) => {
                     for value in &leaf.values {
-                        self.only_fetched(plan.pool.expr_facts(*value).inputs, fetched)?;
+                        let inputs = self.behind(turn, view, plan.pool.expr_facts(*value).inputs);
+                        self.only_fetched(inputs, declared)?;
                     }
                     let values = match turn {
                         Some(turn) => turn.back(machine, &leaf.values),
                         None => leaf.values.iter().map(|value| machine.resolve(*value, view)).collect(),
                     };
-                    return Ok(Run { row: leaf.row, line: leaf.line, values, fetched: sources });
+                    self.only_fetched(machine.take_looked_at(), fetched)?;
+                    return Ok(Run { row: leaf.row, line: leaf.line, values, fetched });
                 }
             }
         }
+    }
+
+    /// The inputs that stand behind these.
+    fn behind(&self, turn: Option<&Turn>, view: View<'_>, inputs: InputSet) -> InputSet {
+        let Some(turn) = turn.filter(|_| view.symmetry.is_some()) else { return inputs };
+        let fetched = inputs.and(self.plan.program.fetched);
+        fetched.iter().fold(InputSet::default(), |all, input| all.or(turn.sources(&self.plan.pool, input)))
     }
 
     fn only_fetched(&self, inputs: InputSet, fetched: InputSet) -> Result<(), String> {

@@ -91,6 +91,7 @@ impl Router<'_, '_> {
                 }
                 Step::Test { .. }
                 | Step::Fetch { .. }
+                | Step::Gather { .. }
                 | Step::Coefficients { .. }
                 | Step::Orbit { .. }
                 | Step::Leaf(_) => {

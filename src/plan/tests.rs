@@ -156,6 +156,13 @@ impl<'a, 'p> Executor<'a, 'p> {
                     fetched = fetched.or(InputSet::one(*input));
                     at = *next;
                 }
+                Step::Gather { input, condition, next } => {
+                    if interpreter.holds(*condition).expect("given") {
+                        assert!(!fetched.contains(*input), "fetched twice");
+                        fetched = fetched.or(InputSet::one(*input));
+                    }
+                    at = *next;
+                }
                 Step::Leaf(leaf) => {
                     let values = leaf.values.iter().map(|value| {
                         let value = interpreter.number(*value).expect("given");

@@ -60,6 +60,8 @@ impl InputId {
 pub struct Program {
     /// The file it came from.
     pub source: Arc<Source>,
+    /// The texts of the tables that it imports, directly or not.
+    pub imported: Vec<Arc<Source>>,
     /// Name, and prefix of everything generated.
     pub name: String,
     /// What the table is.

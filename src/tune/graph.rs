@@ -76,7 +76,7 @@ fn steps(plan: &Plan<'_>) -> (Vec<StepId>, bool) {
 fn edges(plan: &Plan<'_>, id: StepId) -> Vec<(StepId, String)> {
     match plan.step(id) {
         Step::Test { then, other, .. } => vec![(*then, "yes".to_owned()), (*other, "no".to_owned())],
-        Step::Fetch { next, .. } => vec![(*next, String::new())],
+        Step::Fetch { next, .. } | Step::Gather { next, .. } => vec![(*next, String::new())],
         Step::Switch { arms } | Step::Coefficients { rest: arms } | Step::Orbit { arms } => {
             let ways: BTreeSet<StepId> = arms.iter().copied().collect();
             ways.into_iter().map(|arm| (arm, String::new())).collect()
@@ -92,6 +92,10 @@ fn node(plan: &Plan<'_>, id: StepId) -> (String, &'static str) {
     match plan.step(id) {
         Step::Test { condition, .. } => (wrap(&printer.cond(*condition)), "#ffffffff"),
         Step::Fetch { input, .. } => (format!("fetch {}", program.inputs[input.index()].name), "#fff0b8ff"),
+        Step::Gather { input, condition, .. } => {
+            let name = &program.inputs[input.index()].name;
+            (format!("fetch {name} if\n{}", wrap(&printer.cond(*condition))), "#fff0b8ff")
+        }
         Step::Switch { arms } => (format!("lookup by key:\n{} ways", arms.len()), "#ffffffff"),
         Step::Coefficients { rest } => {
             let sets = plan.coefficients.fits.len();

@@ -223,6 +223,7 @@ impl<'t> Lowering<'t> {
         };
         Ok(Program {
             source: table.source.clone(),
+            imported: self.imported(),
             name: format!("{}_{}", table.name.value, function.name.value),
             title,
             origin: table.origin.clone(),

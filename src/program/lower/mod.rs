@@ -16,11 +16,12 @@ mod tests;
 mod written;
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use super::domain::{Input, LevelKind, Levels, StateSpace};
 use super::pool::{InputSet, Pool};
 use super::{Assumption, InputId, Output, Program};
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::{self, Table, names};
 use scope::Env;
 use terms::Term;
@@ -135,6 +136,11 @@ impl<'t> Lowering<'t> {
         scope
     }
 
+    /// The texts of the tables that this one imports, directly or not.
+    fn imported(&self) -> Vec<Arc<Source>> {
+        self.scopes.iter().skip(1).map(|table| table.source.clone()).collect()
+    }
+
     /// The inputs that are fetched.
     fn fetched(&self) -> InputSet {
         let fetched = self.inputs.iter().enumerate().filter(|(_, i)| i.fetched.is_some());
@@ -179,6 +185,7 @@ impl<'t> Lowering<'t> {
         let fetched = self.fetched();
         Some(Program {
             source: table.source.clone(),
+            imported: self.imported(),
             name: table.name.value.clone(),
             title: table.title.clone(),
             origin: table.origin.clone(),

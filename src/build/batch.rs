@@ -1,0 +1,199 @@
+//! One run over many tables: what `umbrage build` and a build script both do.
+//!
+//! All mistakes of all tables are collected, not only the first, and so are the
+//! files that were read, whether or not the run succeeds: whoever watches files
+//! has to know both. Nothing is printed and nothing is written here.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use super::{
+    Artifact, Built, NamedProfile, Options, beside, find_tables, profile_of, programs, shown, tuned_in, weigh,
+};
+use crate::analyse::{self, Levels};
+use crate::diag::{Diagnostic, Failure, Severity, codes};
+use crate::profile;
+use crate::program::Program;
+use crate::table::Table;
+use crate::tuned::slug;
+
+/// What a run is asked for.
+#[derive(Debug, Clone, Default)]
+pub struct Request {
+    /// Tables, or directories of tables.
+    pub paths: Vec<PathBuf>,
+    /// What to make of each table. What was tuned is read from files, not taken from here.
+    pub options: Options,
+    /// Profiles to plan for, each for the table that it counts. A table that none of them counts is planned for
+    /// `profiles/TABLE.ron` beside the directory of the tables, if there is one.
+    pub profiles: Vec<PathBuf>,
+    /// Directory of what was tuned; without, `tuned` beside the directory of the tables, if there is one.
+    pub tuned: Option<PathBuf>,
+    /// Of what was tuned, only what was chosen on this device.
+    pub device: Option<String>,
+    /// What becomes of findings.
+    pub levels: Levels,
+}
+
+/// What came of a run.
+#[derive(Debug, Clone, Default)]
+pub struct Batch {
+    /// The tables that could be built, each with its programs.
+    pub tables: Vec<(Vec<Program>, Built)>,
+    /// What is to be said, in the order found: errors and warnings.
+    pub messages: Vec<Failure>,
+    /// The files and directories that the run depends on, as far as they exist.
+    pub inputs: BTreeSet<PathBuf>,
+}
+
+impl Batch {
+    /// Whether there are errors. Nothing should be written then.
+    pub fn failed(&self) -> bool {
+        self.has(Severity::Error)
+    }
+
+    /// Whether there are warnings.
+    pub fn warned(&self) -> bool {
+        self.has(Severity::Warning)
+    }
+
+    /// The files of all tables.
+    pub fn files(&self) -> Vec<Artifact> {
+        self.tables.iter().flat_map(|(_, built)| built.files.iter().cloned()).collect()
+    }
+
+    fn has(&self, severity: Severity) -> bool {
+        self.messages.iter().flat_map(|failure| &failure.diagnostics).any(|found| found.severity == severity)
+    }
+
+    fn reads(&mut self, path: &Path) {
+        if path.exists() {
+            self.inputs.insert(path.to_owned());
+        }
+    }
+
+    /// Notes what went wrong, and the file that it is about.
+    fn fails(&mut self, failure: Failure) {
+        self.reads(Path::new(&failure.source.name));
+        self.messages.push(failure);
+    }
+
+    fn keep<T>(&mut self, result: Result<T, Failure>) -> Option<T> {
+        result.map_err(|failure| self.fails(failure)).ok()
+    }
+}
+
+/// Reads, checks, proves, emits and validates the tables of a request.
+pub fn run(request: &Request) -> Batch {
+    let mut batch = Batch::default();
+    let mut given: Vec<NamedProfile> = Vec::new();
+    for path in &request.profiles {
+        batch.reads(path);
+        let read = batch.keep(profile::read(path));
+        given.extend(read.map(|profile| (path.clone(), profile)));
+    }
+    for path in &request.paths {
+        let mut options = request.options.clone();
+        batch.reads(path);
+        if options.auto {
+            let directory = request.tuned.clone().or_else(|| beside(path, "tuned"));
+            if let Some(directory) = directory {
+                batch.reads(&directory);
+                options.tuned = batch.keep(tuned_in(&directory)).unwrap_or_default();
+            }
+            let device = request.device.as_deref().map(slug);
+            options.tuned.retain(|tuned| device.as_ref().is_none_or(|device| slug(&tuned.device) == *device));
+        }
+        let profiles = beside(path, "profiles");
+        if let Some(directory) = &profiles {
+            batch.reads(directory);
+        }
+        let evidence = Evidence { given: &given, directory: profiles };
+        for file in batch.keep(find_tables(path)).unwrap_or_default() {
+            batch.reads(&file);
+            let Some(table) = batch.keep(Table::read(&file)) else { continue };
+            // An exhibit is built only if it was named.
+            if path.is_dir() && table.exhibit.is_some() {
+                continue;
+            }
+            read_imports(&table, &mut batch);
+            let built = one(&table, &evidence, &mut options, &request.levels, &mut batch);
+            let built = batch.keep(built);
+            batch.tables.extend(built);
+        }
+    }
+    // A table that could not be read may be the one that a profile is about.
+    for (path, profile) in given.iter().filter(|_| !batch.failed()) {
+        if !batch.tables.iter().any(|(_, built)| built.table == profile.table) {
+            let message = format!("is a profile of the table `{}`, which is not among those built", profile.table);
+            let error = Diagnostic::error(codes::OTHER_PROFILE, message).help("name its table, too, or leave it out");
+            batch.messages.push(Failure::bare(shown(path), error));
+            break;
+        }
+    }
+    batch
+}
+
+/// Where the profiles of tables are.
+struct Evidence<'a> {
+    given: &'a [NamedProfile],
+    directory: Option<PathBuf>,
+}
+
+impl Evidence<'_> {
+    /// The profiles of a table: those given, or else the one that lies beside it.
+    fn of(&self, table: &str) -> Result<Vec<NamedProfile>, Failure> {
+        let given: Vec<_> = self.given.iter().filter(|(_, profile)| profile.table == table).cloned().collect();
+        match &self.directory {
+            Some(directory) if given.is_empty() => Ok(profile_of(table, directory)?.into_iter().collect()),
+            _ => Ok(given),
+        }
+    }
+}
+
+fn one(
+    table: &Table,
+    evidence: &Evidence<'_>,
+    options: &mut Options,
+    levels: &Levels,
+    batch: &mut Batch,
+) -> Result<(Vec<Program>, Built), Failure> {
+    let (name, source) = (&table.name.value, table.source.clone());
+    if let Some((other, _)) = batch.tables.iter().find(|(_, built)| built.table == *name) {
+        let other = other.first().map_or("", |program| program.source.name.as_str());
+        let message = format!("`{other}` and this file both define the table `{name}`");
+        let error =
+            Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
+        return Err(Failure::new(source, error));
+    }
+    let checked = Program::check_all(table)?;
+    // Notes are for `check`: here they would hide what was built.
+    let findings: Vec<Diagnostic> = checked.iter().flat_map(|program| analyse::problems(program, levels)).collect();
+    let failed = findings.iter().any(|finding| finding.severity == Severity::Error);
+    let findings = Failure { source, diagnostics: findings };
+    if failed {
+        return Err(findings);
+    }
+    if !findings.diagnostics.is_empty() {
+        batch.messages.push(findings);
+    }
+    for program in checked.iter().filter(|program| program.function.is_none()) {
+        let profiles = evidence.of(&program.name)?;
+        for (path, _) in &profiles {
+            batch.reads(path);
+        }
+        for warning in weigh(program, &profiles, options)? {
+            batch.messages.push(Failure::bare("", warning));
+        }
+    }
+    let built = programs(&checked, options)?;
+    Ok((checked, built))
+}
+
+/// Notes what a table imports, which may lie elsewhere.
+fn read_imports(table: &Table, batch: &mut Batch) {
+    for imported in table.imports.iter().filter_map(|import| import.table.as_deref()) {
+        batch.reads(Path::new(&imported.source.name));
+        read_imports(imported, batch);
+    }
+}
