@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod support;
+#[path = "../benches/synthetic.rs"]
+mod synthetic;
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -152,6 +154,25 @@ fn plans_that_do_not_suit_a_table_are_left_out() {
     let said = place.run("tune t.ron --profile p.ron --whole");
     assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
     assert!(said.err.contains("no shadow pass evaluates the table `t`"), "{}", said.err);
+}
+
+/// What is too large for a plan is said; the others are made.
+#[test]
+fn plans_that_a_table_is_too_large_for_are_named() {
+    let place = Place::new();
+    place.file("large.ron", synthetic::table(1400));
+    // Some of its broad cases are never taken, which is a warning.
+    let said = place.run("check large.ron");
+    assert_eq!(said.code, Some(1), "{}", said.out);
+    let said = place.run("build large.ron --plan ladder,switch,orbit --target wgsl");
+    assert_eq!(said.code, Some(1), "{}", said.err);
+    let line = |name: &str| said.out.lines().find(|line| line.trim_start().starts_with(name)).unwrap_or_default();
+    assert!(line("ladder").contains("proved equal to the table on 32768 states"), "{}", said.out);
+    let reason = "left out: its key has 15 bits, and the lookup of this plan has room for 12; use `switch_buffer`";
+    assert!(line("switch").contains(reason), "{}", said.out);
+    assert!(line("orbit").contains("left out: it declares no symmetries"), "{}", said.out);
+    assert!(place.path("generated/synthetic_1400/ladder.wgsl").exists());
+    assert!(!place.path("generated/synthetic_1400/switch.wgsl").exists());
 }
 
 /// Plans that need weights are compared with the profile beside the tables, or the one that is given.

@@ -230,9 +230,9 @@ fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
                 line.us, line.uncertainty, line.vs_ladder, line.vs_floor, line.estimate
             )?;
         }
-        if let Some(agreement) = tuning.agreement(kind) {
-            writeln!(out, "  the estimates rank these plans as the times do with a correlation of {agreement:.2}")?;
-        }
+        let [group, everything] =
+            tuning.agreement(kind).map(|value| value.map_or("none".to_owned(), |value| format!("{value:.2}")));
+        writeln!(out, "  rank correlation of times with estimates {group}, with the size of plans {everything}")?;
     }
     estimates(&mut out, tuning)?;
     #[cfg(feature = "render")]
@@ -256,16 +256,19 @@ fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
 
 /// What the profile says that plans should cost.
 fn estimates(out: &mut impl Write, tuning: &Tuning<'_>) -> Result<()> {
-    writeln!(out, "\nestimated operations, where states occur as profiled: of a thread by itself, of a tile in step")?;
-    writeln!(out, "  plan                    alone  to ladder       tile  to ladder")?;
+    writeln!(out, "\nestimated operations: of a thread by itself and of a tile in step, as profiled; of every step")?;
+    writeln!(out, "  plan                 alone  to ladder      tile  to ladder     every  to ladder")?;
     let ladder = &tuning.plans[0].estimate;
     for plan in &tuning.plans {
         let (name, estimate) = (plan.candidate.name(), &plan.estimate);
-        write!(out, "  {name:<20} {:>8.1} {:>10.3}", estimate.alone, estimate.alone / ladder.alone)?;
-        match estimate.tile.zip(ladder.tile) {
-            Some((tile, of_ladder)) => writeln!(out, " {tile:>10.1} {:>10.3}", tile / of_ladder)?,
-            None => writeln!(out, "   the profile has no tiles")?,
-        }
+        let pair = |value: Option<f64>, of: Option<f64>| match value.zip(of) {
+            Some((value, of)) => format!("{value:>9.1} {:>10.3}", value / of),
+            None => format!("{:>9} {:>10}", "-", "-"),
+        };
+        let alone = pair(Some(estimate.alone), Some(ladder.alone));
+        let tile = pair(estimate.tile, ladder.tile);
+        let every = pair(Some(estimate.everything), Some(ladder.everything));
+        writeln!(out, "  {name:<16} {alone} {tile} {every}")?;
     }
     Ok(())
 }
@@ -298,10 +301,17 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
             "alone_vs_ladder": estimate.alone / ladder.alone,
             "tile": estimate.tile,
             "tile_vs_ladder": estimate.tile.zip(ladder.tile).map(|(tile, of_ladder)| tile / of_ladder),
+            "everything": estimate.everything,
+            "everything_vs_ladder": estimate.everything / ladder.everything,
         })
     });
-    let agreement: serde_json::Map<String, serde_json::Value> =
-        Kind::ALL.into_iter().map(|kind| (kind.name().to_owned(), json!(tuning.agreement(kind)))).collect();
+    let agreement: serde_json::Map<String, serde_json::Value> = Kind::ALL
+        .into_iter()
+        .map(|kind| {
+            let [group, everything] = tuning.agreement(kind);
+            (kind.name().to_owned(), json!({"group": group, "everything": everything}))
+        })
+        .collect();
     #[cfg(feature = "render")]
     let whole = whole::object(tuning);
     #[cfg(not(feature = "render"))]

@@ -30,6 +30,8 @@ const READ: f64 = 8.0;
 pub struct Estimate {
     /// Of a group of threads, by kind of input, in the order of [`Kind::ALL`](super::Kind::ALL).
     pub of_kind: Vec<f64>,
+    /// Of every step of the plan: for devices that run both sides of every branch.
+    pub everything: f64,
     /// Of a thread by itself, where states occur as the profile says.
     pub alone: f64,
     /// Of a group that covers a tile of a picture; `None` if the profile has no tiles.
@@ -42,7 +44,10 @@ impl Estimate {
         let mut model = Model::new(plan);
         let of_kind = kinds.iter().map(|columns| model.columns(columns)).collect();
         let (alone, tile) = model.profile(profile);
-        Self { of_kind, alone, tile }
+        // In the order of steps: sums of floating-point numbers depend on it.
+        let items = plan.reachable().into_iter().flat_map(|step| [(step, false), (step, true)]);
+        let everything = items.map(|item| model.costs[&item]).sum();
+        Self { of_kind, everything, alone, tile }
     }
 }
 

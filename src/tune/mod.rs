@@ -322,11 +322,14 @@ impl Tuning<'_> {
         lines
     }
 
-    /// How well the estimates put the plans in the order of their times, -1 to 1.
-    pub fn agreement(&self, kind: Kind) -> Option<f64> {
+    /// How well the estimates put the plans in the order of their times, -1 to 1:
+    /// those of a group in step, and those of every step of the plan.
+    pub fn agreement(&self, kind: Kind) -> [Option<f64>; 2] {
         let lines = self.ranking(kind);
-        let of = |value: fn(&Line) -> f64| lines.iter().map(value).collect::<Vec<_>>();
-        rank_correlation(&of(|line| line.estimate), &of(|line| line.us))
+        let times: Vec<f64> = lines.iter().map(|line| line.us).collect();
+        let group: Vec<f64> = lines.iter().map(|line| line.estimate).collect();
+        let everything: Vec<f64> = lines.iter().map(|line| self.plans[line.plan].estimate.everything).collect();
+        [group, everything].map(|estimates| rank_correlation(&estimates, &times))
     }
 
     /// Whether the chosen plan differs from the ladder as written by more than noise, on captured inputs.

@@ -96,10 +96,11 @@ fn estimates(tuning: &Tuning<'_>) -> Markup {
             "Threads that run in step pay for every path that one of them takes. So a group costs the sum over the "
             "distinct steps of its threads, in operations as written. The profile recorded which states occur "
             "together in tiles of 8 x 4 pixels; \"estimate\" in the tables above is the same for 32 consecutive rows "
-            "of the inputs that were measured, relative to the ladder as written."
+            "of the inputs that were measured, relative to the ladder as written. A software rasteriser may run both "
+            "sides of every branch; then every step counts."
         }
         table {
-            tr { th { "plan" } th.n { "a thread alone" } th.n { "to the ladder" } th.n { "a tile" } th.n { "to the ladder" } }
+            tr { th { "plan" } th.n { "a thread alone" } th.n { "to the ladder" } th.n { "a tile" } th.n { "to the ladder" } th.n { "every step" } th.n { "to the ladder" } }
             @for plan in &tuning.plans {
                 @let estimate = &plan.estimate;
                 tr {
@@ -108,14 +109,17 @@ fn estimates(tuning: &Tuning<'_>) -> Markup {
                     td.n { (format!("{:.3}", estimate.alone / ladder.alone)) }
                     td.n { (estimate.tile.map_or(String::new(), |tile| format!("{tile:.1}"))) }
                     td.n { (ratio(estimate.tile, ladder.tile)) }
+                    td.n { (format!("{:.1}", estimate.everything)) }
+                    td.n { (format!("{:.3}", estimate.everything / ladder.everything)) }
                 }
             }
         }
         p.soft {
-            "The estimates rank the plans as the times do with a correlation of "
+            "Rank correlation of the times with the estimate for groups, and with all that a plan is made of: "
             @for (number, kind) in Kind::ALL.into_iter().enumerate() {
-                @if number > 0 { ", " }
-                (tuning.agreement(kind).map_or("none".to_owned(), |value| format!("{value:.2}"))) " (" (kind.name()) ")"
+                @let values = tuning.agreement(kind).map(|value| value.map_or("none".to_owned(), |v| format!("{v:.2}")));
+                @if number > 0 { "; " }
+                (kind.name()) " " (values[0]) " and " (values[1])
             }
             "."
         }
