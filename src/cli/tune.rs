@@ -270,6 +270,11 @@ fn estimates(out: &mut impl Write, tuning: &Tuning<'_>) -> Result<()> {
         let every = pair(Some(estimate.everything), Some(ladder.everything));
         writeln!(out, "  {name:<16} {alone} {tile} {every}")?;
     }
+    for plan in &tuning.plans {
+        if let Some(certificate) = &plan.proved.plan().certificate {
+            writeln!(out, "{}: {certificate}", plan.candidate.name())?;
+        }
+    }
     Ok(())
 }
 
@@ -303,6 +308,12 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
             "tile_vs_ladder": estimate.tile.zip(ladder.tile).map(|(tile, of_ladder)| tile / of_ladder),
             "everything": estimate.everything,
             "everything_vs_ladder": estimate.everything / ladder.everything,
+            "expected_tests": plan.proved.plan().certificate.map(|certificate| json!({
+                "written": certificate.written,
+                "planned": certificate.planned,
+                "bound": certificate.bound,
+                "optimal": certificate.is_optimal(),
+            })),
         })
     });
     let agreement: serde_json::Map<String, serde_json::Value> = Kind::ALL

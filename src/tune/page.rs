@@ -24,6 +24,11 @@ pub fn page(program: &Program, tuning: &Tuning<'_>, weights: &Weights) -> String
             (row("measured", &tuning.method()))
             (row("chosen", &name))
             (row("proof", &chosen.proved.proof().to_string()))
+            @for plan in &tuning.plans {
+                @if let Some(certificate) = &plan.proved.plan().certificate {
+                    (row(&plan.candidate.name(), &certificate.to_string()))
+                }
+            }
         }
         p {
             "A plan is a way to reach the cases of the table; each one listed here was proved equal to the table and "
