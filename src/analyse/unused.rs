@@ -1,4 +1,4 @@
-//! U0505: inputs and names that nothing uses.
+//! U0505: inputs, names and helpers that nothing uses.
 //!
 //! An input that no result depends on still costs its place in the generated
 //! signature, and more often than not its name is a misprint's victim.
@@ -10,10 +10,11 @@ fn warning(kind: &str, name: &str, span: Span, label: &str) -> Diagnostic {
     Diagnostic::warning(codes::UNUSED_INPUT, format!("the {kind} `{name}` is never used")).at(span, label)
 }
 
-/// Looks for unused inputs, then for unused names.
+/// Looks for unused inputs, then for unused names, then for unused helpers.
 pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
     let mut found = inputs(program);
     found.extend(names(program));
+    found.extend(helpers(program));
     found
 }
 
@@ -36,9 +37,35 @@ fn names(program: &Program) -> impl Iterator<Item = Diagnostic> {
     })
 }
 
+/// Helpers that nothing calls but helpers that nothing calls.
+fn helpers(program: &Program) -> impl Iterator<Item = Diagnostic> {
+    program.written.unused_helpers.iter().map(|helper| {
+        let message = format!("the helper `{}` is never used", helper.value);
+        Diagnostic::note(codes::UNUSED_INPUT, message)
+            .at(helper.span, "nothing that is computed calls it")
+            .help("remove it, or check the spelling where it was meant to be called")
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use crate::analyse::found;
+
+    #[test]
+    fn unused_helpers_are_found() {
+        let text = r#"Table(language: 1, name: "t", inputs: {"x": Range(from: 0, to: 1)},
+            helpers: {"used(a)": "inner(a) + 1", "inner(a)": "a * a", "lost(a)": "also_lost(a)", "also_lost(a)": "a",
+                      "limit(a)": "a"},
+            functions: {
+                "f": Function(parameters: ["x"], value: "used(x)"),
+                "g": Function(parameters: ["x"], value: "x", error: (times: 4, scale: "limit(x)")),
+            })"#;
+        let table = crate::table::Table::parse(crate::diag::Source::new("t.ron", text));
+        let programs = table.and_then(|table| crate::program::Program::check_all(&table));
+        let programs = programs.unwrap_or_else(|e| panic!("{e}"));
+        let found: Vec<_> = programs.iter().flat_map(super::findings).map(|d| d.message).collect();
+        assert_eq!(found, ["the helper `lost` is never used", "the helper `also_lost` is never used"]);
+    }
 
     #[test]
     fn unused_declarations_are_found() {

@@ -106,11 +106,13 @@ pub struct Program {
     pub written: Written,
 }
 
-/// What is only in how a table of cases is written.
+/// What is only in how a table is written.
 #[derive(Debug, Clone, Default)]
 pub struct Written {
     /// Names that nothing leads to.
     pub unused_names: Vec<Spanned<String>>,
+    /// Helpers that nothing calls.
+    pub unused_helpers: Vec<Spanned<String>>,
     /// Numbers that no `f32` equals.
     pub inexact: Vec<(f64, Span)>,
 }

@@ -92,8 +92,8 @@ pub fn whole(
         let bound: Result<Vec<_>, Failure> = shaders.iter().map(|shader| shader.bind(frame, &settings)).collect();
         let bound = bound?;
         let mut times = interleaved(protocol, bound.len(), |index| bound[index].time(watch))?;
-        for output in PASSES.into_iter().rev() {
-            let times = times.split_off(times.len() - plans.len());
+        let fragment = times.split_off(plans.len());
+        for (output, times) in PASSES.into_iter().zip([times, fragment]) {
             measured.push(Whole { frame: name.clone(), pass: output, times });
         }
     }

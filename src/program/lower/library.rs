@@ -7,11 +7,11 @@
 use std::collections::HashMap;
 
 use super::terms::{Expected, Term};
-use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once};
+use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
 use crate::program::pool;
-use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row, Written};
+use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row};
 use crate::table::{self, FunctionBody, HitPolicy, Table, names};
 
 /// Checks a table of functions.
@@ -119,7 +119,8 @@ fn one(table: &Table, function: &table::Function, errors: &mut Vec<Diagnostic>) 
         }
     }
     lowering.declare(&inputs, errors);
-    lowering.portable = function.accuracy.is_some();
+    // An exhibit states its accuracy for those who mend it; its sines are what they are.
+    lowering.portable = function.accuracy.is_some() && table.exhibit.is_none();
     let states = keep(StateSpace::new(&lowering.inputs).map_err(|product| lowering.too_many_states(product)), errors)?;
     keep(lowering.function(function, states), errors)
 }
@@ -250,7 +251,7 @@ impl<'t> Lowering<'t> {
             continuity: Vec::new(),
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
-            written: Written::default(),
+            written: written::shared(table, &function.name.value),
         })
     }
 
