@@ -19,8 +19,8 @@ impl Roof {
         }
         let document = std::fs::read_to_string(root().join("docs/build.md")).unwrap();
         let blocks = |language: &str| -> Vec<String> {
-            let parts = document.split(&format!("```{language}\n")).skip(1);
-            parts.map(|part| part.split("```").next().unwrap().to_owned()).collect()
+            let open = format!("```{language}\n");
+            document.split(&open).skip(1).map(|part| part.split("```").next().unwrap().to_owned()).collect()
         };
         let manifest = blocks("toml").remove(0);
         let published = "umbrage = { version = \"0.1\"";
