@@ -25,7 +25,8 @@ pub(crate) fn check(manifest: &str) -> Result {
     let mut packages: Vec<&str> = text.lines().map(|line| line.trim_end_matches(" (*)")).collect();
     packages.sort_unstable();
     packages.dedup();
-    let refused = packages.iter().filter_map(|line| line.split_once('|')).filter(|(_, licence)| !admits(licence, &allowed));
+    let refused =
+        packages.iter().filter_map(|line| line.split_once('|')).filter(|(_, licence)| !admits(licence, &allowed));
     let refused: Vec<_> = refused.collect();
     for (package, licence) in &refused {
         eprintln!("error: {package}: `{licence}` is not covered by the licences that deny.toml allows");
@@ -99,7 +100,8 @@ mod tests {
     fn expressions_of_licences() {
         let allowed = allowed("[licenses]\nallow = [\n    \"MIT\",\n    \"Zlib\",\n    \"A WITH x\",\n]\n");
         assert_eq!(allowed, ["MIT", "Zlib", "A WITH x"]);
-        for covered in ["MIT", "GPL OR MIT", "GPL/MIT", "(MIT OR GPL) AND Zlib", "A WITH x OR GPL", "GPL AND A OR MIT"] {
+        for covered in ["MIT", "GPL OR MIT", "GPL/MIT", "(MIT OR GPL) AND Zlib", "A WITH x OR GPL", "GPL AND A OR MIT"]
+        {
             assert!(admits(covered, &allowed), "{covered}");
         }
         for not in ["", "GPL", "MIT AND GPL", "(MIT OR GPL) AND GPL", "A", "A WITH y", "MIT) GPL"] {

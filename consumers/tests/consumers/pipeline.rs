@@ -41,7 +41,8 @@ fn the_generated_modules_are_up_to_date() {
     for (name, shape) in
         [("smsr", Shape::Switch(LookupPlace::Constants)), ("rsmss", Shape::Switch(LookupPlace::Buffer))]
     {
-        let options = Options { shapes: vec![shape], targets: vec![Target::RustWgpu], auto: false, ..Options::default() };
+        let options =
+            Options { shapes: vec![shape], targets: vec![Target::RustWgpu], auto: false, ..Options::default() };
         let paths = vec![root.join(format!("../tables/{name}.ron"))];
         let batch = build::run(&Request { paths, options, ..Request::default() });
         assert!(!batch.failed(), "{:?}", batch.messages);
@@ -163,8 +164,7 @@ fn rsmss_on_the_device_and_in_rust() {
             level("domH") == 1,
             level("domV") == 1,
         );
-        let inputs =
-            rsmss::RsmssInputs { key, dH: number("dH"), dV: number("dV"), px: number("px"), py: number("py") };
+        let inputs = rsmss::RsmssInputs { key, dH: number("dH"), dV: number("dV"), px: number("px"), py: number("py") };
         let fetched = rsmss::RsmssFetched {
             n_top: fetched("n_top"),
             n_bottom: fetched("n_bottom"),

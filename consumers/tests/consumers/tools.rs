@@ -59,14 +59,13 @@ fn glsl(proved: &Proved<'_>, version: GlslVersion, vertex: bool) -> String {
         out += &format!("{ty} {name}_fetch_{}({site} site) {{ return {value}; }}\n", input.ident);
     }
     out += &emit::glsl(proved, version);
-    let call = |number: &str| format!("{name}_key(uint({number}), {})", arguments(program, number, &format!("{site}(2u)")));
+    let call =
+        |number: &str| format!("{name}_key(uint({number}), {})", arguments(program, number, &format!("{site}(2u)")));
     let location = if version == GlslVersion::V450 { "layout(location = 0) " } else { "" };
     out + &match vertex {
-        true => format!("in float at;\nvoid main() {{ gl_Position = vec4({}); }}\n", call("at")).replace("in float", &format!("{location}in float")),
-        false => format!(
-            "{location}out vec4 colour;\nvoid main() {{ colour = vec4({}); }}\n",
-            call("gl_FragCoord.x")
-        ),
+        true => format!("in float at;\nvoid main() {{ gl_Position = vec4({}); }}\n", call("at"))
+            .replace("in float", &format!("{location}in float")),
+        false => format!("{location}out vec4 colour;\nvoid main() {{ colour = vec4({}); }}\n", call("gl_FragCoord.x")),
     }
 }
 
