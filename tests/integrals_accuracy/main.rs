@@ -71,7 +71,7 @@ impl Function {
 enum Executor {
     Interpreter,
     #[cfg(feature = "gpu")]
-    Gpu(umbrage::gpu::Gpu),
+    Gpu(Box<umbrage::gpu::Gpu>),
 }
 
 impl Executor {
@@ -80,7 +80,7 @@ impl Executor {
     fn gpu() -> Option<Self> {
         let gpu = umbrage::gpu::Gpu::open(&umbrage::gpu::AdapterChoice::Any).ok();
         assert!(gpu.is_some() || std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
-        gpu.map(Self::Gpu)
+        gpu.map(Box::new).map(Self::Gpu)
     }
 }
 
