@@ -83,6 +83,34 @@ fn worked_examples_on_the_gpu() {
     }
 }
 
+/// Both divide by the same rules in their own precision, so cells at a threshold may differ, and little else.
+#[cfg(all(feature = "gpu", feature = "render"))]
+#[test]
+fn light_on_the_gpu_is_that_of_the_interpreter() {
+    use umbrage::gpu::{AdapterChoice, Gpu};
+    use umbrage::light::{Scene, Settings, Tables, gpu::Lamp, picture};
+    let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
+        assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
+        return;
+    };
+    let (scene, settings) = (Scene::example(), Settings::with_threshold(0.1));
+    let tables = Tables::new().unwrap();
+    let surfaces = picture::surfaces(&scene, 24, 14);
+    let expected = picture::shade(&scene, &tables, &settings, &surfaces).unwrap();
+    let got = Lamp::new(&gpu, &tables, &scene).unwrap().shade(&scene, &settings, &surfaces).unwrap();
+    let (mut error, mut whole) = (0.0, 0.0);
+    for (got, expected) in got.light.iter().zip(&expected.light) {
+        assert_eq!(got.is_some(), expected.is_some());
+        let (Some(got), Some(expected)) = (got, expected) else { continue };
+        error += (*got - *expected).length_squared();
+        whole += expected.length_squared();
+    }
+    let relative = f64::sqrt(error / whole);
+    assert!(relative < 2e-3, "{relative}");
+    let [got, expected] = [got, expected].map(|shaded| f64::from(shaded.cells.iter().sum::<u32>()));
+    assert!((got / expected - 1.0).abs() < 0.1, "{got} cells, {expected}");
+}
+
 /// The emitted Rust, compiled by itself.
 #[test]
 fn worked_examples_in_emitted_rust() {

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::Lobe;
 use super::cells::{Cell, Edge};
 use crate::diag::{Diagnostic, Failure, Source, codes};
-use crate::eval::{Batch, Columns, Results};
-use crate::program::{Program, Value};
+use crate::eval::{Batch, Column, Columns, Results};
+use crate::program::{Input, Program};
 use crate::table::Table;
 
 /// What the function of moments calls its numbers: ∫∫ ω, then ∫∫ ω ω.
@@ -79,30 +79,25 @@ impl Tables {
         })
     }
 
-    /// Points of a program from one row of numbers each, in the order of its inputs.
+    /// Points of a program from one row of numbers each, in the order of these names.
     fn columns<const N: usize>(
         program: &Program,
         names: [&str; N],
         rows: impl Iterator<Item = [f64; N]>,
     ) -> Result<Columns<f32>, Failure> {
-        let place = |name: &str| {
-            program.input(name).ok_or_else(|| {
-                let message = format!("`{}` has no parameter `{name}`", program.name);
-                Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message))
-            })
-        };
-        let places = names.iter().map(|name| place(name)).collect::<Result<Vec<_>, _>>()?;
-        let mut columns = Columns::new(program);
-        let mut point: Vec<Option<Value>> = vec![None; program.inputs.len()];
+        let wrong = |message: String| Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message));
+        let mut numbers: [Vec<f32>; N] = std::array::from_fn(|_| Vec::with_capacity(rows.size_hint().0));
         for row in rows {
-            for (place, number) in places.iter().zip(row) {
-                point[place.index()] = Some(Value::Number(number));
-            }
-            columns
-                .push(&point)
-                .map_err(|error| Failure::bare("tables", Diagnostic::error(codes::BAD_COLUMN, format!("{error:?}"))))?;
+            numbers.iter_mut().zip(row).for_each(|(column, number)| column.push(number as f32));
         }
-        Ok(columns)
+        let column = |input: &Input| {
+            let place = names.iter().position(|name| *name == input.name)?;
+            Some(Column::Numbers { values: std::mem::take(&mut numbers[place]), present: None })
+        };
+        let columns: Option<Vec<Column<f32>>> = program.inputs.iter().map(column).collect();
+        let columns =
+            columns.ok_or_else(|| wrong(format!("`{}` has other parameters than {names:?}", program.name)))?;
+        Columns::from_columns(program, columns).map_err(|error| wrong(format!("`{}`: {error}", program.name)))
     }
 
     /// The linear approximations of all lobes in all cells, cell by cell.
