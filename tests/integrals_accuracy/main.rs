@@ -220,7 +220,8 @@ fn the_parts_of_a_and_b() {
 /// No formula of this form was written by hand.
 #[test]
 fn the_stabilised_parts_of_a_and_b() {
-    errors_of_parts(&PARTS.map(|name| Function::stabilised("double_product", name)), &Executor::Interpreter).check(2.0, 4.0);
+    errors_of_parts(&PARTS.map(|name| Function::stabilised("double_product", name)), &Executor::Interpreter)
+        .check(2.0, 4.0);
 }
 
 /// The same inputs and the same bounds for generated WGSL on an adapter.
