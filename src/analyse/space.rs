@@ -73,6 +73,8 @@ pub(super) struct Space<'p> {
     views: Vec<Images>,
     conditions: Map<(CondId, View), Set>,
     parts: Map<(ExprId, View), Parts>,
+    /// Where one value is less than another; many cases compare the same ones.
+    less: Map<(ExprId, ExprId), Set>,
     pruned: Map<Set, Set>,
     /// Signs of forms that were asked for together, and whether numbers have them.
     possible: HashMap<Vec<(usize, u8)>, bool>,
@@ -106,6 +108,7 @@ impl<'p> Space<'p> {
             views: vec![Images { levels: HashMap::new(), numbers: HashMap::new(), inner: View::PLAIN }],
             conditions: Map::default(),
             parts: Map::default(),
+            less: Map::default(),
             pruned: Map::default(),
             possible: HashMap::new(),
             too_large: false,
@@ -238,6 +241,15 @@ impl<'p> Space<'p> {
 
     /// Where `a < b`, of values without selections.
     pub(super) fn less(&mut self, a: ExprId, b: ExprId) -> Set {
+        if let Some(known) = self.less.get(&(a, b)) {
+            return *known;
+        }
+        let set = self.less_anew(a, b);
+        self.less.insert((a, b), set);
+        set
+    }
+
+    fn less_anew(&mut self, a: ExprId, b: ExprId) -> Set {
         if let (Some((a, lo, hi)), Some((b, other_lo, other_hi))) = (self.clamped(a), self.clamped(b))
             && (lo, hi) == (other_lo, other_hi)
             && lo < hi
