@@ -135,7 +135,8 @@ fn point(inputs: &[&str], row: usize) -> Vec<f32> {
         |place: usize| (0.5 + (row + 1) as f64 * (0.618_033_988_75 + 0.137_213_1 * place as f64).fract()).fract();
     let k = if row.is_multiple_of(2) { 0.0 } else { part(4) - 0.45 };
     let (phi0, theta, width) = (5.0 * part(1), 0.3 + 2.0 * part(2), 0.02 + 0.33 * part(3));
-    let boundary = theta + 0.02 + 0.3 * part(5);
+    // Above the other side at both ends.
+    let boundary = theta + 0.02 + 0.3 * part(5) - (k * width).min(0.0);
     let [z, turn] = [2.0 * part(6) - 1.0, 2.0 * PI * part(7)];
     let flat = (1.0 - z * z).sqrt();
     let number = |name: &str| match name {
