@@ -222,6 +222,25 @@ mod tests {
         assert_eq!(printer.cond(second), "H == both || V == both");
     }
 
+    /// The orders that are built for what was counted are the best there are.
+    #[test]
+    fn the_orders_of_the_published_tables_are_optimal() {
+        for name in ["smsr", "rsmss"] {
+            let program = Program::read(format!("tables/{name}.ron")).unwrap_or_else(|e| panic!("{e}"));
+            let file = format!("profiles/{name}.ron");
+            let profile = crate::profile::read(file.as_ref()).unwrap_or_else(|e| panic!("{e}"));
+            let fitted = crate::profile::fit(&program, profile, &file).unwrap_or_else(|e| panic!("{e}"));
+            let weights = fitted.weights(&program, &file).unwrap_or_else(|e| panic!("{e}"));
+            for shape in [Shape::Ordered, Shape::Nested] {
+                let options = crate::plan::PlanOptions { shape, weights: Some(&weights), assume: false };
+                let plan = Plan::new(&program, options).unwrap_or_else(|e| panic!("{e}"));
+                let certificate = plan.certificate.expect("ordered plans have one");
+                assert!(certificate.is_optimal(), "{name} {shape}: {certificate}");
+                println!("{name} {shape}: {certificate}");
+            }
+        }
+    }
+
     #[test]
     fn frequent_cases_come_first_as_far_as_precedence_lets_them() {
         let program = Program::read("tables/rsmss.ron").unwrap_or_else(|e| panic!("{e}"));
