@@ -15,7 +15,7 @@ use crate::program::claims::decide;
 use crate::program::{CondId, LevelKind, LevelSet, Pool, Program};
 
 /// Tests before the chains of a nested plan.
-const NESTED: usize = 2;
+pub(super) const NESTED: usize = 2;
 
 /// The guards, in the best order.
 pub(super) fn ordered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
@@ -50,14 +50,14 @@ pub(super) fn nested<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
 }
 
 /// A chain of what may be taken in some states, given by their place in the setting.
-pub(super) struct Chain {
-    pub(super) rows: Guarded,
-    pub(super) cost: f64,
-    pub(super) bound: f64,
+struct Chain {
+    rows: Guarded,
+    cost: f64,
+    bound: f64,
 }
 
 impl Chain {
-    pub(super) fn new(pool: &mut Pool, setting: &Setting<'_, '_>, states: &[usize], known: &Knowledge) -> Result<Self> {
+    fn new(pool: &mut Pool, setting: &Setting<'_, '_>, states: &[usize], known: &Knowledge) -> Result<Self> {
         let (tests, rows) = tests(setting, states)?;
         let (order, bound) = tests.best();
         let guards = &setting.program.rows;
@@ -104,7 +104,8 @@ fn tests(setting: &Setting<'_, '_>, states: &[usize]) -> Result<(Tests, Vec<usiz
     Ok((tests, rows))
 }
 
-fn nest(
+/// Tests that decide most, so many of them one below the other, then chains.
+pub(super) fn nest(
     builder: &mut Builder<'_>,
     setting: &Setting<'_, '_>,
     states: &[usize],
