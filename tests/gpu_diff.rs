@@ -44,9 +44,9 @@ fn long_chains_take_the_right_case() {
         .map(|i| format!("Case(id: {}, when: \"a == {} && b == {}\", value: \"{i} + x\"),", i + 1, i / 20, i % 20))
         .collect();
     let text = format!(
-        "Table(language: 1, name: \"long\", hit_policy: First, inputs: {{\"a\": Int(from: 0, to: 6), \"b\": Int(from: 0, to: 19), \"x\": Range(from: 0, to: 1)}}, output: Number(), cases: [{cases}], default: \"-1\")"
+        "Table(language: 1, name: \"many\", hit_policy: First, inputs: {{\"a\": Int(from: 0, to: 6), \"b\": Int(from: 0, to: 19), \"x\": Range(from: 0, to: 1)}}, output: Number(), cases: [{cases}], default: \"-1\")"
     );
-    let table = Table::parse(Source::new("long.ron", text)).unwrap_or_else(|error| panic!("{error}"));
+    let table = Table::parse(Source::new("many.ron", text)).unwrap_or_else(|error| panic!("{error}"));
     let program = Program::check(&table).unwrap_or_else(|error| panic!("{error}"));
     let shapes = vec![Shape::Ladder, Shape::Switch(LookupPlace::Constants)];
     let options = Options { shapes, effort: Effort { grid: 2, random: 1, lines: 0 }, ..Options::default() };
