@@ -83,6 +83,34 @@ fn worked_examples_on_the_gpu() {
     }
 }
 
+/// Both divide by the same rules in their own precision, so cells at a threshold may differ, and little else.
+#[cfg(all(feature = "gpu", feature = "render"))]
+#[test]
+fn light_on_the_gpu_is_that_of_the_interpreter() {
+    use umbrage::gpu::{AdapterChoice, Gpu};
+    use umbrage::light::{Scene, Settings, Tables, gpu::Lamp, picture};
+    let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
+        assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
+        return;
+    };
+    let (scene, settings) = (Scene::example(), Settings::with_threshold(0.1));
+    let tables = Tables::new().unwrap();
+    let surfaces = picture::surfaces(&scene, 24, 14);
+    let expected = picture::shade(&scene, &tables, &settings, &surfaces).unwrap();
+    let got = Lamp::new(&gpu, &tables, &scene).unwrap().shade(&scene, &settings, &surfaces).unwrap();
+    let (mut error, mut whole) = (0.0, 0.0);
+    for (got, expected) in got.light.iter().zip(&expected.light) {
+        assert_eq!(got.is_some(), expected.is_some());
+        let (Some(got), Some(expected)) = (got, expected) else { continue };
+        error += (*got - *expected).length_squared();
+        whole += expected.length_squared();
+    }
+    let relative = f64::sqrt(error / whole);
+    assert!(relative < 2e-3, "{relative}");
+    let [got, expected] = [got, expected].map(|shaded| f64::from(shaded.cells.iter().sum::<u32>()));
+    assert!((got / expected - 1.0).abs() < 0.1, "{got} cells, {expected}");
+}
+
 /// The emitted Rust, compiled by itself.
 #[test]
 fn worked_examples_in_emitted_rust() {
@@ -215,6 +243,27 @@ fn values_and_errors_at_the_edges() {
     assert_eq!(eval("spherical_gaussian", "r0", rows).out, "case,value\n0,2\n0,2\n0,0.0000005\n0,1\n0,0\n");
     let said = eval("spherical_gaussian", "r0", "mu,lambda,a,b\n1,1,0.5,0.25\n");
     assert!(said.code == Some(2) && said.err.contains("a <= b does not hold"), "{}", said.all());
+}
+
+/// `docs/double_product_stable.ron` is what the command makes of the printed table, certificate included.
+#[test]
+fn the_stabilised_table_is_what_the_command_makes() {
+    let place = Place::new();
+    place.table("double_product_printed.ron");
+    let said = place.run("stabilise double_product_printed.ron -o stable.ron --message-format json");
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{}", said.all());
+    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/double_product_stable.ron");
+    assert_eq!(place.read("stable.ron"), std::fs::read_to_string(kept).unwrap());
+    let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let functions = report["functions"].as_array().unwrap();
+    assert_eq!(functions.len(), 15);
+    for function in functions {
+        let certificate = &function["certificate"];
+        assert_eq!(certificate["met"], true, "{function}");
+        assert!(certificate["points"].as_u64() >= Some(180) && certificate["admitted"].is_f64(), "{function}");
+    }
+    let said = place.run("check stable.ron");
+    assert_eq!(said.code, Some(0), "{}", said.all());
 }
 
 #[test]

@@ -8,7 +8,8 @@
 // Cost:   expected tests 11.435, as written 20.427; at most 4.177 more than the optimum
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
 
-#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]
+#[allow(non_camel_case_types, non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub)]
+#[allow(unused_parens, unused_variables)]
 #[rustfmt::skip]
 pub mod rsmss {
 /// Produces fetched inputs on demand; levels as their index.
@@ -626,4 +627,218 @@ pub fn rsmss(H: f32, V: f32, b: f32, tH: f32, tV: f32, dH: f32, dV: f32, px: f32
     return rsmss_case(H, V, b, tH, tV, dH, dV, px, py, domH, domV, site).value;
 }
 
+/// The cases, as the table describes them.
+pub const RSMSS_CASES: [(u32, &str); 31] = [
+    (1, "entering, the edge has no end: leave it"),
+    (2, "a single lit texel: close it"),
+    (3, "a single shadowed texel: remove it"),
+    (4, "a vertical gap, one texel wide and long"),
+    (5, "the closed end of a vertical gap"),
+    (6, "a horizontal gap, one texel high and long"),
+    (7, "the closed end of a horizontal gap"),
+    (8, "the tip of a vertical gap"),
+    (9, "inside a vertical gap"),
+    (10, "the tip of a horizontal gap"),
+    (11, "inside a horizontal gap"),
+    (12, "the end of a thin vertical shadow"),
+    (13, "inside a thin vertical shadow"),
+    (14, "the end of a thin horizontal shadow"),
+    (15, "inside a thin horizontal shadow"),
+    (16, "corner of a vertical edge: take V as none"),
+    (17, "corner of a horizontal edge: take H as none"),
+    (18, "lone corner"),
+    (19, "two edges meet: the darker one"),
+    (20, "dual positive horizontal edge"),
+    (21, "dual positive vertical edge"),
+    (22, "horizontal edge"),
+    (23, "vertical edge"),
+    (24, "corner of a vertical edge: take V as none"),
+    (25, "corner of a horizontal edge: take H as none"),
+    (26, "lone corner"),
+    (27, "two edges meet: the lighter one"),
+    (28, "dual positive horizontal edge"),
+    (29, "dual positive vertical edge"),
+    (30, "horizontal edge"),
+    (31, "vertical edge"),
+];
+
+/// What a case is; nothing where none matched.
+pub fn rsmss_case_name(case_id: u32) -> Option<&'static str> {
+    RSMSS_CASES.iter().find(|(id, _)| *id == case_id).map(|(_, name)| *name)
+}
+
+/// Levels of H.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum RsmssH {
+    None = 0,
+    Right = 1,
+    Left = 2,
+    Both = 3,
+}
+impl RsmssH {
+    /// In the order of their numbers.
+    pub const ALL: [Self; 4] = [Self::None, Self::Right, Self::Left, Self::Both];
+    /// Its name in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Right => "right",
+            Self::Left => "left",
+            Self::Both => "both",
+        }
+    }
+    /// The number that stands for it where levels are passed as `f32`.
+    pub fn code(self) -> f32 {
+        match self {
+            Self::None => 0.0,
+            Self::Right => 0.25,
+            Self::Left => 0.5,
+            Self::Both => 0.75,
+        }
+    }
+    /// The level whose code is nearest.
+    pub fn from_code(code: f32) -> Self {
+        Self::ALL[rsmss_H_level(code) as usize]
+    }
+}
+
+/// Levels of V.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum RsmssV {
+    None = 0,
+    Top = 1,
+    Bottom = 2,
+    Both = 3,
+}
+impl RsmssV {
+    /// In the order of their numbers.
+    pub const ALL: [Self; 4] = [Self::None, Self::Top, Self::Bottom, Self::Both];
+    /// Its name in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Top => "top",
+            Self::Bottom => "bottom",
+            Self::Both => "both",
+        }
+    }
+    /// The number that stands for it where levels are passed as `f32`.
+    pub fn code(self) -> f32 {
+        match self {
+            Self::None => 0.0,
+            Self::Top => 0.25,
+            Self::Bottom => 0.5,
+            Self::Both => 0.75,
+        }
+    }
+    /// The level whose code is nearest.
+    pub fn from_code(code: f32) -> Self {
+        Self::ALL[rsmss_V_level(code) as usize]
+    }
+}
+
+/// Levels of b.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum RsmssB {
+    Entering = 0,
+    Exiting = 1,
+}
+impl RsmssB {
+    /// In the order of their numbers.
+    pub const ALL: [Self; 2] = [Self::Entering, Self::Exiting];
+    /// Its name in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Entering => "entering",
+            Self::Exiting => "exiting",
+        }
+    }
+    /// The number that stands for it where levels are passed as `f32`.
+    pub fn code(self) -> f32 {
+        match self {
+            Self::Entering => 0.0,
+            Self::Exiting => 1.0,
+        }
+    }
+    /// The level whose code is nearest.
+    pub fn from_code(code: f32) -> Self {
+        Self::ALL[rsmss_b_level(code) as usize]
+    }
+}
+
+/// Levels of tH.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum RsmssTH {
+    DualNegative = 0,
+    PositiveNegative = 1,
+    DualPositive = 2,
+}
+impl RsmssTH {
+    /// In the order of their numbers.
+    pub const ALL: [Self; 3] = [Self::DualNegative, Self::PositiveNegative, Self::DualPositive];
+    /// Its name in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DualNegative => "dual_negative",
+            Self::PositiveNegative => "positive_negative",
+            Self::DualPositive => "dual_positive",
+        }
+    }
+    /// The number that stands for it where levels are passed as `f32`.
+    pub fn code(self) -> f32 {
+        match self {
+            Self::DualNegative => (-1.0),
+            Self::PositiveNegative => 0.0,
+            Self::DualPositive => 1.0,
+        }
+    }
+    /// The level whose code is nearest.
+    pub fn from_code(code: f32) -> Self {
+        Self::ALL[rsmss_tH_level(code) as usize]
+    }
+}
+
+/// The key of a state.
+pub fn rsmss_key_of(H: RsmssH, V: RsmssV, b: RsmssB, tH: RsmssTH, tV: RsmssTH, domH: bool, domV: bool) -> u32 {
+    ((H as u32) << 0) | ((V as u32) << 2) | ((b as u32) << 4) | ((tH as u32) << 5) | ((tV as u32) << 7) | ((u32::from(domH)) << 9) | ((u32::from(domV)) << 10)
+}
+
+/// What one evaluation is given, in words of four bytes without gaps, as an array in a buffer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct RsmssInputs {
+    pub key: u32,
+    pub dH: f32,
+    pub dV: f32,
+    pub px: f32,
+    pub py: f32,
+}
+impl RsmssInputs {
+    /// The result and the case.
+    pub fn evaluate(self, site: &mut impl RsmssSite) -> RsmssResult {
+        rsmss_key_case(self.key, self.dH, self.dV, self.px, self.py, site)
+    }
+}
+
+// The shaders, made from the same table.
+pub mod source {
+    /// The WGSL.
+    pub const WGSL: &str = include_str!("ordered.wgsl");
+    /// The library for GLSL 450.
+    pub const GLSL_450: &str = include_str!("ordered.450.glsl");
+    /// The library for GLSL 330.
+    pub const GLSL_330: &str = include_str!("ordered.330.glsl");
+    /// The library for GLSL ES 300.
+    pub const GLSL_ES_300: &str = include_str!("ordered.es300.glsl");
+    /// The compute shader as SPIR-V.
+    pub const SPIRV: &[u8] = include_bytes!("ordered.spv");
+    /// The compute shader as HLSL.
+    pub const HLSL: &str = include_str!("ordered.hlsl");
+    /// The compute shader as MSL.
+    pub const MSL: &str = include_str!("ordered.metal");
+}
 }

@@ -9,7 +9,8 @@
 // Note:   chosen by `umbrage tune` on llvmpipe (LLVM 15.0.6, 256 bits)
 // Proof:  equal to the table on 576 states, 596 paths; the same operations on each
 
-#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]
+#[allow(non_camel_case_types, non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub)]
+#[allow(unused_parens, unused_variables)]
 #[rustfmt::skip]
 pub mod smsr {
 
@@ -154,4 +155,169 @@ pub fn smsr(H: f32, V: f32, tH: f32, tV: f32, dH: f32, dV: f32, px: f32, py: f32
     return smsr_case(H, V, tH, tV, dH, dV, px, py, domH, domV).value;
 }
 
+/// The cases, as the table describes them.
+pub const SMSR_CASES: [(u32, &str); 12] = [
+    (1, "the edge has no end: leave it"),
+    (2, "shadow at both ends: close the edge"),
+    (3, "shadow on both sides: close the gap"),
+    (4, "corner of a vertical edge: take V as none"),
+    (5, "corner of a horizontal edge: take H as none"),
+    (6, "lone corner at the bottom"),
+    (7, "lone corner at the top"),
+    (8, "two edges meet: the darker one"),
+    (9, "shadow below"),
+    (10, "shadow above"),
+    (11, "shadow on the left"),
+    (12, "shadow on the right"),
+];
+
+/// What a case is; nothing where none matched.
+pub fn smsr_case_name(case_id: u32) -> Option<&'static str> {
+    SMSR_CASES.iter().find(|(id, _)| *id == case_id).map(|(_, name)| *name)
+}
+
+/// Levels of H.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum SmsrH {
+    None = 0,
+    Right = 1,
+    Left = 2,
+    Both = 3,
+}
+impl SmsrH {
+    /// In the order of their numbers.
+    pub const ALL: [Self; 4] = [Self::None, Self::Right, Self::Left, Self::Both];
+    /// Its name in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Right => "right",
+            Self::Left => "left",
+            Self::Both => "both",
+        }
+    }
+    /// The number that stands for it where levels are passed as `f32`.
+    pub fn code(self) -> f32 {
+        match self {
+            Self::None => 0.0,
+            Self::Right => 0.25,
+            Self::Left => 0.5,
+            Self::Both => 0.75,
+        }
+    }
+    /// The level whose code is nearest.
+    pub fn from_code(code: f32) -> Self {
+        Self::ALL[smsr_H_level(code) as usize]
+    }
+}
+
+/// Levels of V.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum SmsrV {
+    None = 0,
+    Top = 1,
+    Bottom = 2,
+    Both = 3,
+}
+impl SmsrV {
+    /// In the order of their numbers.
+    pub const ALL: [Self; 4] = [Self::None, Self::Top, Self::Bottom, Self::Both];
+    /// Its name in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Top => "top",
+            Self::Bottom => "bottom",
+            Self::Both => "both",
+        }
+    }
+    /// The number that stands for it where levels are passed as `f32`.
+    pub fn code(self) -> f32 {
+        match self {
+            Self::None => 0.0,
+            Self::Top => 0.25,
+            Self::Bottom => 0.5,
+            Self::Both => 0.75,
+        }
+    }
+    /// The level whose code is nearest.
+    pub fn from_code(code: f32) -> Self {
+        Self::ALL[smsr_V_level(code) as usize]
+    }
+}
+
+/// Levels of tH.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum SmsrTH {
+    DualNegative = 0,
+    PositiveNegative = 1,
+    DualPositive = 2,
+}
+impl SmsrTH {
+    /// In the order of their numbers.
+    pub const ALL: [Self; 3] = [Self::DualNegative, Self::PositiveNegative, Self::DualPositive];
+    /// Its name in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DualNegative => "dual_negative",
+            Self::PositiveNegative => "positive_negative",
+            Self::DualPositive => "dual_positive",
+        }
+    }
+    /// The number that stands for it where levels are passed as `f32`.
+    pub fn code(self) -> f32 {
+        match self {
+            Self::DualNegative => (-1.0),
+            Self::PositiveNegative => 0.0,
+            Self::DualPositive => 1.0,
+        }
+    }
+    /// The level whose code is nearest.
+    pub fn from_code(code: f32) -> Self {
+        Self::ALL[smsr_tH_level(code) as usize]
+    }
+}
+
+/// The key of a state.
+pub fn smsr_key_of(H: SmsrH, V: SmsrV, tH: SmsrTH, tV: SmsrTH, domH: bool, domV: bool) -> u32 {
+    ((H as u32) << 0) | ((V as u32) << 2) | ((tH as u32) << 4) | ((tV as u32) << 6) | ((u32::from(domH)) << 8) | ((u32::from(domV)) << 9)
+}
+
+/// What one evaluation is given, in words of four bytes without gaps, as an array in a buffer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct SmsrInputs {
+    pub key: u32,
+    pub dH: f32,
+    pub dV: f32,
+    pub px: f32,
+    pub py: f32,
+}
+impl SmsrInputs {
+    /// The result and the case.
+    pub fn evaluate(self) -> SmsrResult {
+        smsr_key_case(self.key, self.dH, self.dV, self.px, self.py)
+    }
+}
+
+// The shaders, made from the same table.
+pub mod source {
+    /// The WGSL.
+    pub const WGSL: &str = include_str!("ordered.wgsl");
+    /// The library for GLSL 450.
+    pub const GLSL_450: &str = include_str!("ordered.450.glsl");
+    /// The library for GLSL 330.
+    pub const GLSL_330: &str = include_str!("ordered.330.glsl");
+    /// The library for GLSL ES 300.
+    pub const GLSL_ES_300: &str = include_str!("ordered.es300.glsl");
+    /// The compute shader as SPIR-V.
+    pub const SPIRV: &[u8] = include_bytes!("ordered.spv");
+    /// The compute shader as HLSL.
+    pub const HLSL: &str = include_str!("ordered.hlsl");
+    /// The compute shader as MSL.
+    pub const MSL: &str = include_str!("ordered.metal");
+}
 }

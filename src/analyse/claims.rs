@@ -27,7 +27,10 @@ pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
     let Some(function) = &program.function else { return Vec::new() };
     let mut found: Vec<Diagnostic> =
         function.limits.iter().filter_map(|limit| check_limit(program, function, limit)).collect();
-    found.extend(function.accuracy.as_ref().and_then(|claim| check_accuracy(program, function, claim)));
+    // What an exhibit says of its accuracy is meant for the form that is to be made of it.
+    if program.exhibit.is_none() {
+        found.extend(function.accuracy.as_ref().and_then(|claim| check_accuracy(program, function, claim)));
+    }
     found
 }
 

@@ -1,4 +1,4 @@
-//! U0505: inputs and names that nothing uses.
+//! U0505: inputs, names and helpers that nothing uses.
 //!
 //! An input that no result depends on still costs its place in the generated
 //! signature, and more often than not its name is a misprint's victim.
@@ -8,17 +8,19 @@ use std::collections::HashSet;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{InputSet, Program};
 use crate::table::expr::{Expr, ExprKind, SumOver};
-use crate::table::{CaseBody, Image, Table};
+use crate::table::{CaseBody, FunctionBody, Image, Table};
 
-/// Looks for unused inputs, then for unused names.
+/// Looks for unused inputs, then for unused names, then for unused helpers.
 pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
     let mut found = inputs(program);
-    // Names are gone from a program, but its source is that of a well-formed table.
-    // The names of a table of functions are for all of them, so one cannot tell.
-    if program.function.is_none()
-        && let Ok(table) = Table::parse(program.source.clone())
-    {
-        found.extend(names(&table));
+    // Names and helpers are gone from a program, but its source is that of a well-formed table. What the functions
+    // of a table share is looked at with the first of them.
+    let Ok(table) = Table::parse(program.source.clone()) else { return found };
+    let first = table.functions.first().map(|function| function.name.value.as_str());
+    match &program.function {
+        None => found.extend(names(&table).into_iter().chain(helpers(&table))),
+        Some(function) if Some(function.name.as_str()) == first => found.extend(helpers(&table)),
+        Some(_) => {}
     }
     found
 }
@@ -76,6 +78,52 @@ fn names(table: &Table) -> Vec<Diagnostic> {
     pending.into_iter().map(|named| describe(&named.name)).collect()
 }
 
+/// Helpers that nothing calls but helpers that nothing calls.
+fn helpers(table: &Table) -> Vec<Diagnostic> {
+    let mut open: Vec<&Expr> = vec![&table.default];
+    open.extend(table.names.iter().map(|named| &named.value));
+    open.extend(table.assumptions.iter().map(|assumption| &assumption.condition));
+    open.extend(table.symmetries.iter().filter_map(|symmetry| symmetry.result.as_ref()));
+    let case = |case: &'_ crate::table::Case| -> Vec<Expr> {
+        let CaseBody::Rows { when, lines } = &case.body else { return Vec::new() };
+        let lines = lines.iter().flat_map(|line| [Some(&line.value), line.condition.as_ref()]).flatten();
+        std::iter::once(when).chain(lines).cloned().collect()
+    };
+    let mut cases: Vec<Expr> = table.cases.iter().flat_map(case).collect();
+    for function in &table.functions {
+        open.extend(function.bindings.iter().map(|binding| &binding.value));
+        open.extend(function.domain.iter().map(|assumption| &assumption.condition));
+        open.extend(function.limits.iter().map(|limit| &limit.value));
+        open.extend(function.accuracy.iter().map(|accuracy| &accuracy.scale));
+        match &function.body {
+            FunctionBody::Value(value) => open.push(value),
+            FunctionBody::Cases { cases: own, default } => {
+                open.push(default);
+                cases.extend(own.iter().flat_map(case));
+            }
+        }
+    }
+    open.extend(&cases);
+    let mut used: HashSet<&str> = HashSet::new();
+    while let Some(expr) = open.pop() {
+        open.extend(expr.parts());
+        if let ExprKind::Call(name, _) | ExprKind::With(name, _) = &expr.kind
+            && let Some(helper) = table.helpers.iter().find(|helper| helper.name.value == name.value)
+            && used.insert(&helper.name.value)
+        {
+            open.extend(helper.lines.iter().flat_map(|line| [Some(&line.value), line.condition.as_ref()]).flatten());
+        }
+    }
+    let unused = table.helpers.iter().filter(|helper| !used.contains(helper.name.value.as_str()));
+    let describe = |helper: &crate::table::Helper| {
+        let message = format!("the helper `{}` is never used", helper.name.value);
+        Diagnostic::note(codes::UNUSED_INPUT, message)
+            .at(helper.name.span, "nothing that is computed calls it")
+            .help("remove it, or check the spelling where it was meant to be called")
+    };
+    unused.map(describe).collect()
+}
+
 /// Every name that an expression mentions; of `v.xy` also `v`.
 fn mentions<'t>(expr: &'t Expr, found: &mut HashSet<&'t str>) {
     let mut all = |parts: &[&'t Expr]| parts.iter().for_each(|part| mentions(part, found));
@@ -103,6 +151,22 @@ fn mentions<'t>(expr: &'t Expr, found: &mut HashSet<&'t str>) {
 #[cfg(test)]
 mod tests {
     use crate::analyse::found;
+
+    #[test]
+    fn unused_helpers_are_found() {
+        let text = r#"Table(language: 1, name: "t", inputs: {"x": Range(from: 0, to: 1)},
+            helpers: {"used(a)": "inner(a) + 1", "inner(a)": "a * a", "lost(a)": "also_lost(a)", "also_lost(a)": "a",
+                      "limit(a)": "a"},
+            functions: {
+                "f": Function(parameters: ["x"], value: "used(x)"),
+                "g": Function(parameters: ["x"], value: "x", error: (times: 4, scale: "limit(x)")),
+            })"#;
+        let table = crate::table::Table::parse(crate::diag::Source::new("t.ron", text));
+        let programs = table.and_then(|table| crate::program::Program::check_all(&table));
+        let programs = programs.unwrap_or_else(|e| panic!("{e}"));
+        let found: Vec<_> = programs.iter().flat_map(super::findings).map(|d| d.message).collect();
+        assert_eq!(found, ["the helper `lost` is never used", "the helper `also_lost` is never used"]);
+    }
 
     #[test]
     fn unused_declarations_are_found() {

@@ -83,8 +83,24 @@ impl Batch {
     }
 }
 
+/// Stack for the work. Expressions are nested as deep as the parser allows, and
+/// a build script is compiled without optimisation, with frames several times as large.
+const STACK: usize = 256 << 20;
+
 /// Reads, checks, proves, emits and validates the tables of a request.
 pub fn run(request: &Request) -> Batch {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || collect(request));
+        match thread.map(std::thread::ScopedJoinHandle::join) {
+            Ok(Ok(batch)) => batch,
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            // Where no such thread can be had, the stack at hand may still do.
+            Err(_) => collect(request),
+        }
+    })
+}
+
+fn collect(request: &Request) -> Batch {
     let mut batch = Batch::default();
     let mut given: Vec<NamedProfile> = Vec::new();
     for path in &request.profiles {

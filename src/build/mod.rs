@@ -15,7 +15,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::{self, Target};
+use crate::emit::{self, Beside, Target};
 use crate::plan::{LookupPlace, Plan, PlanOptions, Proof, Shape, Weights, is_unsuitable};
 use crate::program::Program;
 use crate::table::io_reason;
@@ -45,11 +45,11 @@ pub struct Options {
 
 impl Default for Options {
     /// The table as written, the published technique, what does best on most
-    /// graphics processors, and what was tuned; in every language.
+    /// graphics processors, and what was tuned; in every language, each in one form.
     fn default() -> Self {
         Self {
             shapes: vec![Shape::Ladder, Shape::Ordered, Shape::Switch(LookupPlace::Constants)],
-            targets: Target::ALL.to_vec(),
+            targets: Target::DEFAULT.to_vec(),
             auto: true,
             tuned: Vec::new(),
             assume: false,
@@ -144,14 +144,23 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
     let proved = functions.iter().map(|f| Plan::proved(f, Shape::Ladder)).collect::<Result<Vec<_>, _>>()?;
     let table = functions.first().map_or(String::new(), |function| function.table().to_owned());
     let mut built = Built { table, plans: Vec::new(), skipped: Vec::new(), files: Vec::new() };
+    let beside = beside_each_other(options, "functions", false);
     for target in &options.targets {
         let path = Path::new(&built.table).join(format!("functions.{}", target.extension()));
-        built.files.push(Artifact { path, contents: emit::emit_all(&proved, *target)? });
+        built.files.push(Artifact { path, contents: emit::emit_all(&proved, *target, &beside)? });
     }
     let proof = proved.iter().map(|proved| proved.proof().clone()).reduce(Proof::and);
     let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new() };
     built.plans.extend(proof.map(plan));
     Ok(built)
+}
+
+/// The files of a plan, which lie beside each other.
+fn beside_each_other(options: &Options, name: &str, lookup: bool) -> Vec<Beside> {
+    let file = |extension: &str| format!("{name}.{extension}");
+    let targets = options.targets.iter().map(|target| (Some(*target), file(target.extension())));
+    let lookup = lookup.then(|| (None, file("lookup.bin")));
+    targets.chain(lookup).map(|(target, file)| Beside { target, file }).collect()
 }
 
 /// Proves, emits and validates one checked table.
@@ -178,8 +187,10 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
             Err(failure) => return Err(failure),
         };
         let path = |extension: &str| Path::new(&program.name).join(format!("{name}.{extension}"));
+        let beside = beside_each_other(options, &name, shape.reads_buffer());
         for target in &options.targets {
-            built.files.push(Artifact { path: path(target.extension()), contents: emit::emit(&proved, *target)? });
+            let contents = emit::emit_all(std::slice::from_ref(&proved), *target, &beside)?;
+            built.files.push(Artifact { path: path(target.extension()), contents });
         }
         if shape.reads_buffer() {
             let words = emit::lookup_words(proved.plan());

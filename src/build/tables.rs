@@ -67,7 +67,17 @@ impl Tables {
         self.target(Target::Glsl(version))
     }
 
-    /// Emits a Rust module.
+    /// Emits a module of WESL.
+    pub fn wesl(self) -> Self {
+        self.target(Target::Wesl)
+    }
+
+    /// Emits a module of naga_oil.
+    pub fn naga_oil(self) -> Self {
+        self.target(Target::NagaOil)
+    }
+
+    /// Emits a Rust module, which needs no other crate.
     pub fn rust(self) -> Self {
         self.target(Target::Rust)
     }

@@ -36,7 +36,8 @@ pub(super) struct Arguments {
     /// Let plans do anything where the table's assumptions do not hold
     #[arg(long)]
     assume: bool,
-    /// Languages: wgsl, glsl450, glsl330, glsl_es300, rust, spirv, hlsl, msl [default: all]
+    /// Languages: wgsl, glsl450, glsl330, glsl_es300, rust, spirv, hlsl, msl [default: these]; and wesl, naga_oil,
+    /// rust_bytemuck, rust_wgpu
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
     #[command(flatten)]

@@ -15,8 +15,10 @@ use super::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 #[cfg(feature = "gpu")]
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::light::picture::{self, Shaded};
-use crate::light::{Executor, Scene, Settings, Tables};
+#[cfg(feature = "gpu")]
+use crate::light::gpu::Lamp;
+use crate::light::picture;
+use crate::light::{Scene, Settings, Shaded, Surface, Tables};
 use crate::picture::plot;
 
 /// Largest width and height of a picture.
@@ -24,6 +26,12 @@ const MAX_SIDE: u32 = 4096;
 
 /// Directions from pole to pole of a brute-force sum.
 const FINENESS: u32 = 128;
+
+/// The same for the plot, whose errors are smaller.
+const PLOTTED_FINENESS: u32 = 512;
+
+/// What is said of pictures by the interpreter.
+const INTERPRETER: &str = "tables by the interpreter";
 
 /// Thresholds of the plot.
 const THRESHOLDS: [f64; 6] = [0.3, 0.1, 0.05, 0.03, 0.02, 0.01];
@@ -43,10 +51,10 @@ pub(super) struct Arguments {
     /// Largest error of the border of visibility and of the lobes in a cell: e_r
     #[arg(long, value_name = "RADIANS", default_value = "0.1", value_parser = threshold)]
     threshold: f64,
-    /// What evaluates the tables
+    /// What divides the directions and evaluates the tables
     #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]
     executor: ExecutorArgument,
-    /// The adapter for shaders: any, software, hardware, or a part of its name
+    /// The adapter for gpu: any, software, hardware, or a part of its name
     #[cfg(feature = "gpu")]
     #[arg(long, value_name = "WHICH", default_value = "any")]
     adapter: AdapterChoice,
@@ -61,14 +69,14 @@ pub(super) struct Arguments {
     plot: Option<PathBuf>,
 }
 
-/// What evaluates the tables, as an argument.
+/// What divides the directions and evaluates the tables, as an argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum ExecutorArgument {
-    /// The batch interpreter
+    /// The batch interpreter, and plain Rust around it
     Interpreter,
-    /// Shaders made from the tables; the directions are divided on the CPU
+    /// One shader, with the tables in it
     #[cfg(feature = "gpu")]
-    Shader,
+    Gpu,
 }
 
 fn size(text: &str) -> std::result::Result<(u32, u32), String> {
@@ -82,34 +90,57 @@ fn threshold(text: &str) -> std::result::Result<f64, String> {
     number.ok_or_else(|| "expected a number from 0.001 to 10".to_owned())
 }
 
+/// What makes the light at surfaces.
+enum Executor<'t> {
+    Interpreter(&'t Tables),
+    #[cfg(feature = "gpu")]
+    Lamp(Lamp<'t>),
+}
+
+impl Executor<'_> {
+    fn shade(&self, scene: &Scene, settings: &Settings, surfaces: &[Option<Surface>]) -> Result<Shaded> {
+        match self {
+            Executor::Interpreter(tables) => Ok(picture::shade(scene, tables, settings, surfaces)?),
+            #[cfg(feature = "gpu")]
+            Executor::Lamp(lamp) => Ok(lamp.shade(scene, settings, surfaces)?),
+        }
+    }
+}
+
 /// Makes everything that was asked for, then writes it.
 pub(super) fn run(arguments: &Arguments, _report: &Report) -> Result<Outcome> {
-    let scene = Scene::example();
-    let tables = Tables::new()?;
-    let settings = Settings::with_threshold(arguments.threshold);
-    let (width, height) = arguments.size;
-    let mut files: Vec<(Sink, Vec<u8>)> = Vec::new();
-    let mut say = String::new();
-
     let picture_sink = Sink::create(&arguments.output)?;
     let reference_sink = arguments.reference.as_deref().map(Sink::create).transpose()?;
     let cells_sink = arguments.cells.as_deref().map(Sink::create).transpose()?;
     let plot_sink = arguments.plot.as_deref().map(Sink::create).transpose()?;
 
+    let scene = Scene::example();
+    let tables = Tables::new()?;
+    let mut say = String::new();
     #[cfg(feature = "gpu")]
     let gpu = match arguments.executor {
         ExecutorArgument::Interpreter => None,
-        ExecutorArgument::Shader => Some(Gpu::open(&arguments.adapter)?),
+        ExecutorArgument::Gpu => Some(Gpu::open(&arguments.adapter)?),
     };
     #[cfg(feature = "gpu")]
     let (executor, place) = match &gpu {
-        Some(gpu) => (Executor::Shaders(Box::new(tables.on(gpu)?)), format!("tables on {}", gpu.describe())),
-        None => (Executor::Interpreter, "tables by the interpreter".to_owned()),
+        Some(gpu) => {
+            let start = Instant::now();
+            let lamp = Lamp::new(gpu, &tables, &scene)?;
+            say += &format!("shader compiled in {:.2} s\n", start.elapsed().as_secs_f64());
+            (Executor::Lamp(lamp), gpu.describe())
+        }
+        None => (Executor::Interpreter(&tables), INTERPRETER.to_owned()),
     };
     #[cfg(not(feature = "gpu"))]
-    let (executor, place) = (Executor::Interpreter, "tables by the interpreter");
+    let (executor, place) = (Executor::Interpreter(&tables), INTERPRETER);
+
+    let (width, height) = arguments.size;
+    let settings = Settings::with_threshold(arguments.threshold);
+    let mut files: Vec<(Sink, Vec<u8>)> = Vec::new();
     let start = Instant::now();
-    let shaded = picture::shade(&scene, &tables, &executor, &settings, width, height)?;
+    let surfaces = picture::surfaces(&scene, width, height);
+    let shaded = executor.shade(&scene, &settings, &surfaces)?;
     let seconds = start.elapsed().as_secs_f64();
     let (cells, edges) = means(&shaded);
     say += &format!("{width} x {height} pixels in {seconds:.2} s, {place}, threshold {}\n", arguments.threshold);
@@ -118,7 +149,7 @@ pub(super) fn run(arguments: &Arguments, _report: &Report) -> Result<Outcome> {
 
     if let (Some(path), Some(sink)) = (&arguments.reference, reference_sink) {
         let start = Instant::now();
-        let exact = reference(&scene, width, height);
+        let exact = reference(&scene, &surfaces, FINENESS);
         say += &format!(
             "brute force with {} directions: {:.2} s; root mean square difference {:.2} %\n",
             2 * FINENESS * FINENESS,
@@ -133,7 +164,7 @@ pub(super) fn run(arguments: &Arguments, _report: &Report) -> Result<Outcome> {
         files.push((sink, png(path, &picture::counted(width, height, &shaded.cells, most))?));
     }
     if let Some(sink) = plot_sink {
-        files.push((sink, trade_off(&scene, &tables)?.into_bytes()));
+        files.push((sink, trade_off(&scene, &executor)?.into_bytes()));
     }
     for (mut sink, bytes) in files {
         sink.write_all(&bytes)?;
@@ -160,12 +191,10 @@ fn means(shaded: &Shaded) -> (f64, f64) {
     (sum(&shaded.cells), sum(&shaded.edges))
 }
 
-fn reference(scene: &Scene, width: u32, height: u32) -> Vec<Option<DVec3>> {
-    let directions = picture::directions(&scene.lobes, FINENESS);
-    let surfaces = picture::surfaces(scene, width, height);
-    let light = |surface: &Option<crate::light::Surface>| {
-        surface.as_ref().map(|surface| picture::brute_force(scene, surface, &directions))
-    };
+fn reference(scene: &Scene, surfaces: &[Option<Surface>], fineness: u32) -> Vec<Option<DVec3>> {
+    let directions = picture::directions(&scene.lobes, fineness);
+    let light =
+        |surface: &Option<Surface>| surface.as_ref().map(|surface| picture::brute_force(scene, surface, &directions));
     surfaces.par_iter().map(light).collect()
 }
 
@@ -178,13 +207,13 @@ fn difference(got: &[Option<DVec3>], exact: &[Option<DVec3>]) -> f64 {
 }
 
 /// Cells per pixel and the error of the picture, against the threshold.
-fn trade_off(scene: &Scene, tables: &Tables) -> Result<String> {
+fn trade_off(scene: &Scene, executor: &Executor<'_>) -> Result<String> {
     let (width, height) = PLOTTED;
-    let exact = reference(scene, width, height);
+    let surfaces = picture::surfaces(scene, width, height);
+    let exact = reference(scene, &surfaces, PLOTTED_FINENESS);
     let (mut cells, mut errors) = (Vec::new(), Vec::new());
     for threshold in THRESHOLDS.into_iter().rev() {
-        let shaded =
-            picture::shade(scene, tables, &Executor::Interpreter, &Settings::with_threshold(threshold), width, height)?;
+        let shaded = executor.shade(scene, &Settings::with_threshold(threshold), &surfaces)?;
         cells.push((threshold, means(&shaded).0));
         errors.push((threshold, 100.0 * difference(&shaded.light, &exact)));
     }

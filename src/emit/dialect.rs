@@ -102,10 +102,6 @@ pub(super) trait Dialect {
     fn of_pair(&self, pair: &str, second: bool) -> String {
         format!("{pair}.{}", if second { "y" } else { "x" })
     }
-    /// The last lines of a file.
-    fn epilogue(&self) -> &'static str {
-        ""
-    }
     /// A constant of the module.
     fn constant(&self, name: &str, value: u32) -> String;
     /// The structure of value and case.

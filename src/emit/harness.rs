@@ -93,7 +93,7 @@ pub fn wgsl_library(proved: &Proved<'_>, library: &str) -> String {
             Type::Bool => "false",
             _ => "0u",
         };
-        let ty = Wgsl.ty(ty, &prefix);
+        let ty = Wgsl::Plain.ty(ty, &prefix);
         let _ =
             writeln!(out, "fn {}_fetch_{ident}(site: {}) -> {ty} {{ return {zero}; }}", prefix.lower, prefix.site());
     }
@@ -170,7 +170,7 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
             "fn {}_fetch_{ident}(site: {}) -> {} {{\n    {}\n    return {value};\n}}",
             prefix.lower,
             prefix.site(),
-            Wgsl.ty(ty, &prefix),
+            Wgsl::Plain.ty(ty, &prefix),
             count_fetch(&layout, index),
         );
     }
@@ -185,12 +185,12 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     if !fetches.is_empty() {
         arguments.push(format!("{}(row)", prefix.site()));
     }
-    let [.., levels_case, key_case] = Wgsl.entry_names(&prefix);
+    let [.., levels_case, key_case] = Wgsl::Plain.entry_names(&prefix);
     let function = if entry == Entry::Key { key_case } else { levels_case };
     let _ = writeln!(out, "    let result = {function}({});", arguments.join(", "));
     store(&mut out, program, &layout, "bitcast<u32>");
     out += "}\n";
-    module::write(proved, &Wgsl) + &name_buffers(program, &prefix, &out)
+    module::write(proved, &Wgsl::Plain) + &name_buffers(program, &prefix, &out)
 }
 
 /// The same in GLSL 450.

@@ -9,8 +9,11 @@ mod body;
 mod dialect;
 mod glsl;
 pub mod harness;
+mod host;
+mod host_wgpu;
 mod lookup;
 mod module;
+mod modules;
 mod names;
 mod outline;
 mod rust;
@@ -22,23 +25,35 @@ mod validate;
 mod values;
 mod wgsl;
 
+use host::Host;
+use wgsl::Wgsl;
+
 use crate::diag::Failure;
 use crate::plan::Proved;
 use crate::program::Output;
 
 pub use glsl::GlslVersion;
+pub use host::Beside;
 pub use module::lookup_words;
-pub use validate::{Translated, glsl_module, translate, wgsl_module};
+pub use validate::{Translated, Validated, glsl_module, translate, wgsl_module};
 
-/// A language to emit.
+/// A language to emit, and in what form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Target {
-    /// A WGSL module.
+    /// WGSL to be pasted or concatenated.
     Wgsl,
+    /// A module of WESL.
+    Wesl,
+    /// A module of naga_oil.
+    NagaOil,
     /// A GLSL library.
     Glsl(GlslVersion),
     /// A Rust module without dependencies.
     Rust,
+    /// The same with inputs that `bytemuck` turns into bytes.
+    RustBytemuck,
+    /// The same with a pipeline for `wgpu`.
+    RustWgpu,
     /// A SPIR-V compute shader over columns of inputs.
     SpirV,
     /// The same as HLSL.
@@ -49,7 +64,23 @@ pub enum Target {
 
 impl Target {
     /// Every target, in the order of reports.
-    pub const ALL: [Target; 8] = [
+    pub const ALL: [Target; 12] = [
+        Target::Wgsl,
+        Target::Wesl,
+        Target::NagaOil,
+        Target::Glsl(GlslVersion::V450),
+        Target::Glsl(GlslVersion::V330),
+        Target::Glsl(GlslVersion::Es300),
+        Target::Rust,
+        Target::RustBytemuck,
+        Target::RustWgpu,
+        Target::SpirV,
+        Target::Hlsl,
+        Target::Msl,
+    ];
+
+    /// One target per language.
+    pub const DEFAULT: [Target; 8] = [
         Target::Wgsl,
         Target::Glsl(GlslVersion::V450),
         Target::Glsl(GlslVersion::V330),
@@ -64,10 +95,14 @@ impl Target {
     pub fn name(self) -> &'static str {
         match self {
             Target::Wgsl => "wgsl",
+            Target::Wesl => "wesl",
+            Target::NagaOil => "naga_oil",
             Target::Glsl(GlslVersion::V450) => "glsl450",
             Target::Glsl(GlslVersion::V330) => "glsl330",
             Target::Glsl(GlslVersion::Es300) => "glsl_es300",
             Target::Rust => "rust",
+            Target::RustBytemuck => "rust_bytemuck",
+            Target::RustWgpu => "rust_wgpu",
             Target::SpirV => "spirv",
             Target::Hlsl => "hlsl",
             Target::Msl => "msl",
@@ -84,48 +119,27 @@ impl Target {
     pub fn extension(self) -> &'static str {
         match self {
             Target::Wgsl => "wgsl",
+            Target::Wesl => "wesl",
+            Target::NagaOil => "naga_oil.wgsl",
             Target::Glsl(GlslVersion::V450) => "450.glsl",
             Target::Glsl(GlslVersion::V330) => "330.glsl",
             Target::Glsl(GlslVersion::Es300) => "es300.glsl",
             Target::Rust => "rs",
+            Target::RustBytemuck => "bytemuck.rs",
+            Target::RustWgpu => "wgpu.rs",
             Target::SpirV => "spv",
             Target::Hlsl => "hlsl",
             Target::Msl => "metal",
         }
     }
-}
 
-/// Emits the plans of the functions of a table into one file, and validates it.
-///
-/// # Errors
-/// As [`emit`].
-pub fn emit_all(functions: &[Proved<'_>], target: Target) -> Result<Vec<u8>, Failure> {
-    let Some(first) = functions.first() else { return Ok(Vec::new()) };
-    let program = first.plan().program;
-    let join = |texts: Vec<String>| texts.join("\n");
-    match target {
-        Target::Wgsl => {
-            let source = join(functions.iter().map(wgsl).collect());
-            wgsl_module(program, &source)?;
-            Ok(source.into_bytes())
-        }
-        Target::Glsl(version) => {
-            let source = join(functions.iter().map(|function| glsl(function, version)).collect());
-            if version == GlslVersion::V450 {
-                glsl_module(program, &harness::glsl_library(first, &source, version))?;
-            }
-            Ok(source.into_bytes())
-        }
-        Target::Rust => Ok(join(functions.iter().map(rust).collect()).into_bytes()),
-        Target::SpirV | Target::Hlsl | Target::Msl => {
-            let source = join(functions.iter().map(|f| harness::wgsl_columns(f, harness::Entry::Key)).collect());
-            let module = wgsl_module(program, &source)?;
-            let translated = match target {
-                Target::SpirV => Translated::SpirV,
-                Target::Hlsl => Translated::Hlsl,
-                _ => Translated::Msl,
-            };
-            translate(program, &module, translated)
+    /// What a Rust module offers besides functions, if this is one.
+    fn host(self) -> Option<Host> {
+        match self {
+            Target::Rust => Some(Host::Plain),
+            Target::RustBytemuck => Some(Host::Bytemuck),
+            Target::RustWgpu => Some(Host::Wgpu),
+            _ => None,
         }
     }
 }
@@ -134,44 +148,67 @@ pub fn emit_all(functions: &[Proved<'_>], target: Target) -> Result<Vec<u8>, Fai
 ///
 /// WGSL and GLSL 450 are parsed and validated by naga; SPIR-V, HLSL and MSL
 /// are written by naga from the validated WGSL. GLSL 330 and ES 300, which
-/// naga does not read, differ from GLSL 450 in their header only. GLSL of a
-/// table whose output is a list is not read by naga either.
+/// naga does not read, differ from GLSL 450 in their header only, and so do
+/// modules of WESL and naga_oil from plain WGSL. GLSL of a table whose output
+/// is a list is not read by naga either.
 ///
 /// # Errors
 /// When validation fails, which would be a bug of the printer.
 pub fn emit(proved: &Proved<'_>, target: Target) -> Result<Vec<u8>, Failure> {
-    match target {
-        Target::Wgsl => {
-            let source = wgsl(proved);
-            wgsl_module(proved.plan().program, &harness::wgsl_library(proved, &source))?;
-            Ok(source.into_bytes())
+    emit_all(std::slice::from_ref(proved), target, &[])
+}
+
+/// Emits plans into one file: that of a table of cases, or those of the
+/// functions of a table. A Rust module embeds the files that lie `beside` it.
+///
+/// # Errors
+/// As [`emit`].
+pub fn emit_all(plans: &[Proved<'_>], target: Target, beside: &[Beside]) -> Result<Vec<u8>, Failure> {
+    let Some(first) = plans.first() else { return Ok(Vec::new()) };
+    let program = first.plan().program;
+    let join = |write: &dyn Fn(&Proved<'_>) -> String| plans.iter().map(write).collect::<Vec<_>>().join("\n");
+    let text = match target {
+        Target::Wgsl | Target::Wesl | Target::NagaOil => {
+            let dialect = if target == Target::Wgsl { Wgsl::Plain } else { Wgsl::Module };
+            let source = join(&|plan| module::write(plan, &dialect));
+            wgsl_module(program, &plans.iter().fold(source.clone(), |text, plan| harness::wgsl_library(plan, &text)))?;
+            modules::head(plans, target) + &source
         }
         Target::Glsl(version) => {
-            let source = glsl(proved, version);
+            let source = join(&|plan| glsl(plan, version));
             // naga's GLSL front end gives an array another type inside of a structure than outside.
-            let readable = !matches!(proved.plan().program.output, Output::List { .. });
+            let readable = !plans.iter().any(|plan| matches!(plan.plan().program.output, Output::List { .. }));
             if version == GlslVersion::V450 && readable {
-                glsl_module(proved.plan().program, &harness::glsl_library(proved, &source, version))?;
+                glsl_module(program, &harness::glsl_library(first, &source, version))?;
             }
-            Ok(source.into_bytes())
+            source
         }
-        Target::Rust => Ok(rust(proved).into_bytes()),
+        Target::Rust | Target::RustBytemuck | Target::RustWgpu => {
+            let host = target.host().unwrap_or(Host::Plain);
+            host::modules(plans, host, beside)
+        }
         Target::SpirV | Target::Hlsl | Target::Msl => {
-            let source = harness::wgsl_columns(proved, harness::Entry::Key);
-            let module = wgsl_module(proved.plan().program, &source)?;
+            let source = join(&|plan| harness::wgsl_columns(plan, harness::Entry::Key));
+            let module = wgsl_module(program, &source)?;
             let translated = match target {
                 Target::SpirV => Translated::SpirV,
                 Target::Hlsl => Translated::Hlsl,
                 _ => Translated::Msl,
             };
-            translate(proved.plan().program, &module, translated)
+            let mut out = translate(program, &module, translated)?;
+            if translated != Translated::SpirV {
+                let headers: String = plans.iter().map(module::header).collect();
+                out.splice(0..0, headers.into_bytes());
+            }
+            return Ok(out);
         }
-    }
+    };
+    Ok(text.into_bytes())
 }
 
 /// The WGSL module of a plan.
 pub fn wgsl(proved: &Proved<'_>) -> String {
-    module::write(proved, &wgsl::Wgsl)
+    module::write(proved, &Wgsl::Plain)
 }
 
 /// The GLSL library of a plan: no `#version` line and no `main`.
@@ -181,5 +218,5 @@ pub fn glsl(proved: &Proved<'_>, version: GlslVersion) -> String {
 
 /// The Rust module of a plan.
 pub fn rust(proved: &Proved<'_>) -> String {
-    module::write(proved, &rust::Rust)
+    host::modules(std::slice::from_ref(proved), Host::Plain, &[])
 }

@@ -1,5 +1,6 @@
-//! Rust: a module of plain functions that needs nothing but `core` arithmetic
-//! and the floating-point functions of `std`.
+//! Rust: plain functions that need nothing but `core` arithmetic and the
+//! floating-point functions of `std`. What else is in the module, and its end,
+//! is added by [`host`](super::host).
 
 use super::dialect::{Dialect, Prefix, Type, bare, call, infix};
 use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
@@ -26,7 +27,7 @@ impl Dialect for Rust {
 
     fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String {
         let mut out = format!(
-            "#[allow(non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
+            "#[allow(non_camel_case_types, non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub)]\n#[allow(unused_parens, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
             prefix.lower
         );
         if !fetches.is_empty() {
@@ -38,10 +39,6 @@ impl Dialect for Rust {
             out += "}\n";
         }
         out
-    }
-
-    fn epilogue(&self) -> &'static str {
-        "}"
     }
 
     fn constant(&self, name: &str, value: u32) -> String {

@@ -34,6 +34,11 @@ impl Text {
         self.line(format!("// {}", harmless(text)).trim_end());
     }
 
+    /// A line of documentation, in Rust.
+    pub(super) fn doc(&mut self, text: &str) {
+        self.line(format!("/// {}", harmless(text)));
+    }
+
     /// A line that opens a block.
     pub(super) fn open(&mut self, line: impl AsRef<str>) {
         self.line(line);
@@ -48,8 +53,13 @@ impl Text {
 
     /// Closes a block.
     pub(super) fn close(&mut self) {
+        self.close_with("}");
+    }
+
+    /// Closes a block that ends in something else than a brace.
+    pub(super) fn close_with(&mut self, end: &str) {
         self.indent = self.indent.saturating_sub(1);
-        self.line("}");
+        self.line(end);
     }
 }
 

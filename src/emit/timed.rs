@@ -43,7 +43,7 @@ pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
             Type::Bool => format!("{word} != 0u"),
             _ => word,
         };
-        let (site, ty) = (prefix.site(), Wgsl.ty(ty, &prefix));
+        let (site, ty) = (prefix.site(), Wgsl::Plain.ty(ty, &prefix));
         let _ = writeln!(out, "fn {}_fetch_{ident}(site: {site}) -> {ty} {{ return {value}; }}", prefix.lower);
     }
     let numbers = (1..layout.plain).map(|index| format!("number_{index}"));
@@ -51,10 +51,10 @@ pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
     if !fetches.is_empty() {
         arguments.push(format!("{}(row)", prefix.site()));
     }
-    let [_, key, ..] = Wgsl.entry_names(&prefix);
+    let [_, key, ..] = Wgsl::Plain.entry_names(&prefix);
     let evaluation = format!("let value = {key}({});", arguments.join(", "));
     kernel(&mut out, program, &layout, rows, &evaluation, &value_words(&program.output, "value", "bitcast<u32>"));
-    module::write(proved, &Wgsl) + &name_buffers(program, &prefix, &out)
+    module::write(proved, &Wgsl::Plain) + &name_buffers(program, &prefix, &out)
 }
 
 /// The shader that reads and writes the same data and computes nothing.
@@ -102,7 +102,7 @@ fn kernel(out: &mut String, program: &Program, layout: &Layout, rows: u32, evalu
     }
     // By the golden ratio, which comes by everywhere without repeating itself.
     let ranges = program.inputs.iter().filter(|input| input.fetched.is_none()).filter_map(|input| match input.domain {
-        Domain::Continuous { lo, hi, .. } => Some((Wgsl.number(lo), Wgsl.number(hi - lo))),
+        Domain::Continuous { lo, hi, .. } => Some((Wgsl::Plain.number(lo), Wgsl::Plain.number(hi - lo))),
         Domain::Discrete(_) => None,
     });
     for (index, (lo, width)) in ranges.enumerate() {

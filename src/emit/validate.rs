@@ -26,7 +26,7 @@ pub struct Validated {
 pub enum Translated {
     /// SPIR-V 1.1.
     SpirV,
-    /// HLSL for shader model 5.1.
+    /// HLSL for shader model 5.0: Direct3D 11.
     Hlsl,
     /// MSL 2.0.
     Msl,
@@ -79,7 +79,7 @@ pub fn translate(program: &Program, validated: &Validated, to: Translated) -> Re
             Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
         }
         Translated::Hlsl => {
-            let options = hlsl::Options { shader_model: hlsl::ShaderModel::V5_1, ..hlsl::Options::default() };
+            let options = hlsl::Options { shader_model: hlsl::ShaderModel::V5_0, ..hlsl::Options::default() };
             let pipeline = hlsl::PipelineOptions::default();
             let mut out = String::new();
             hlsl::Writer::new(&mut out, &options, &pipeline)

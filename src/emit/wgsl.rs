@@ -4,7 +4,13 @@ use super::dialect::{Dialect, Prefix, Type, call, infix};
 use crate::program::{BINARY_FUNCTIONS, BinaryOp, Output, TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp};
 
 /// WGSL, with nothing but functions, constants and one structure.
-pub(super) struct Wgsl;
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wgsl {
+    /// Text that becomes part of a module.
+    Plain,
+    /// A module, which imports what the host supplies.
+    Module,
+}
 
 impl Dialect for Wgsl {
     fn ty(&self, ty: &Type, prefix: &Prefix) -> String {
@@ -27,7 +33,10 @@ impl Dialect for Wgsl {
         if fetches.is_empty() {
             return String::new();
         }
-        let mut out = String::from("// To be supplied by the host, anywhere in the same module:\n");
+        let mut out = String::from(match self {
+            Wgsl::Plain => "// To be supplied by the host, anywhere in the same module:\n",
+            Wgsl::Module => "// To be supplied by the host, in the module that is imported above:\n",
+        });
         out += &format!("//   struct {} {{ ... }}  what a fetch needs to know, a texel for instance\n", prefix.site());
         for (ident, ty) in fetches {
             let ty = self.ty(ty, prefix);

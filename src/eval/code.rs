@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use super::columns::{Column, Columns};
 use super::residual::{Term, TermId};
-use crate::program::{BinaryOp, InputId, Real, TernaryOp, UnaryOp};
+use crate::program::{BinaryOp, Comparison, InputId, Real, TernaryOp, UnaryOp};
 
 /// Most rows that go through an instruction at once: a few registers of this fit the first-level cache.
 pub(super) const BLOCK: usize = 1024;
@@ -27,6 +27,8 @@ enum Instruction<T> {
     Unary(UnaryOp, Operand<T>),
     Binary(BinaryOp, Operand<T>, Operand<T>),
     Ternary(TernaryOp, Operand<T>, Operand<T>, Operand<T>),
+    Compare(Comparison, Operand<T>, Operand<T>),
+    Choose(Operand<T>, Operand<T>, Operand<T>),
 }
 
 /// Code that computes some terms.
@@ -112,6 +114,14 @@ impl<T: Real> Code<T> {
                     let [a, b, c] = [a, b, c].map(|operand| registers.argument(operand, len));
                     ternary(op, out, a, b, c);
                 }
+                Instruction::Compare(op, a, b) => {
+                    compare(op, out, registers.argument(a, len), registers.argument(b, len));
+                }
+                Instruction::Choose(condition, a, b) => {
+                    let [condition, a, b] = [condition, a, b].map(|operand| registers.argument(operand, len));
+                    let no = T::from_f64(0.0);
+                    map3(out, condition, a, b, |condition, a, b| if condition == no { b } else { a });
+                }
             }
             registers.0[*target] = target_register;
         }
@@ -128,8 +138,8 @@ impl<T> Instruction<T> {
         match self {
             Instruction::Load(_) => {}
             Instruction::Unary(_, a) => each(a),
-            Instruction::Binary(_, a, b) => [a, b].into_iter().for_each(each),
-            Instruction::Ternary(_, a, b, c) => [a, b, c].into_iter().for_each(each),
+            Instruction::Binary(_, a, b) | Instruction::Compare(_, a, b) => [a, b].into_iter().for_each(each),
+            Instruction::Ternary(_, a, b, c) | Instruction::Choose(a, b, c) => [a, b, c].into_iter().for_each(each),
         }
     }
 }
@@ -152,6 +162,8 @@ impl<T: Real> Compiler<'_, T> {
             Term::Unary(op, a) => Instruction::Unary(op, self.place(a)),
             Term::Binary(op, a, b) => Instruction::Binary(op, self.place(a), self.place(b)),
             Term::Ternary(op, a, b, c) => Instruction::Ternary(op, self.place(a), self.place(b), self.place(c)),
+            Term::Compare(op, a, b) => Instruction::Compare(op, self.place(a), self.place(b)),
+            Term::Choose(condition, a, b) => Instruction::Choose(self.place(condition), self.place(a), self.place(b)),
         };
         let register = self.registers;
         self.registers += 1;
@@ -251,6 +263,16 @@ fn binary<T: Real>(op: BinaryOp, out: &mut [T], a: Argument<'_, T>, b: Argument<
         BinaryOp::Min => map2(out, a, b, |a, b| T::binary(BinaryOp::Min, a, b)),
         BinaryOp::Step => map2(out, a, b, |a, b| T::binary(BinaryOp::Step, a, b)),
         _ => map2(out, a, b, |a, b| T::binary(op, a, b)),
+    }
+}
+
+fn compare<T: Real>(op: Comparison, out: &mut [T], a: Argument<'_, T>, b: Argument<'_, T>) {
+    let [no, yes] = [0.0, 1.0].map(T::from_f64);
+    let truth = |holds: bool| if holds { yes } else { no };
+    match op {
+        Comparison::Less => map2(out, a, b, |a, b| truth(a < b)),
+        Comparison::LessEqual => map2(out, a, b, |a, b| truth(a <= b)),
+        Comparison::Equal => map2(out, a, b, |a, b| truth(a == b)),
     }
 }
 

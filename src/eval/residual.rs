@@ -2,14 +2,17 @@
 //!
 //! For one discrete state most guards are decided. The [`Residual`] of a state
 //! is the small decision tree that remains: fetches, tests of fetched levels,
-//! comparisons, and leaves whose expressions contain no selection. Terms and
-//! trees are interned, so states that mean the same share one tree.
+//! comparisons, and leaves whose expressions are straight-line code. A selection
+//! between sides of a few operations computes both and takes one of them, since
+//! a tree that branches at each of twenty would have a million leaves; larger
+//! sides are branches of the tree. Terms and trees are interned, so states that
+//! mean the same share one tree.
 //!
 //! This does not go through [`Pool`](crate::program::Pool)'s constructors. They fold constants in
 //! `f64` and drop conditions that cannot matter to the value, either of which
 //! would differ from the reference: in rounding, or in what is fetched.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::marker::PhantomData;
 
 use super::columns::Path;
@@ -27,6 +30,10 @@ const MAX_TESTS: usize = 256;
 /// Most terms visited for one tree.
 const MAX_STEPS: usize = 1 << 20;
 
+/// Most operations of both sides of a selection of which one is computed in vain. About what it costs to take
+/// two groups of rows through the tree instead of one.
+const FEW: usize = 48;
+
 /// A term in a [`Residual`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct TermId(u32);
@@ -37,7 +44,7 @@ impl TermId {
     }
 }
 
-/// An expression without selections.
+/// An expression in which nothing branches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Term {
     Const(Number),
@@ -45,6 +52,10 @@ pub(super) enum Term {
     Unary(UnaryOp, TermId),
     Binary(BinaryOp, TermId, TermId),
     Ternary(TernaryOp, TermId, TermId, TermId),
+    /// 1 if the comparison holds, and otherwise 0.
+    Compare(Comparison, TermId, TermId),
+    /// The second if the first is not 0, and otherwise the third.
+    Choose(TermId, TermId, TermId),
 }
 
 /// A tree in a [`Residual`].
@@ -101,6 +112,8 @@ pub(super) struct Residual<'p, T> {
     memo: HashMap<ExprId, TermId>,
     nodes: usize,
     steps: usize,
+    /// Most operations of both sides of a selection that does not branch.
+    few: usize,
     precision: PhantomData<T>,
 }
 
@@ -136,6 +149,7 @@ impl<'p, T: Real> Residual<'p, T> {
             memo: HashMap::new(),
             nodes: 0,
             steps: 0,
+            few: FEW,
             precision: PhantomData,
         }
     }
@@ -171,8 +185,16 @@ impl<'p, T: Real> Residual<'p, T> {
             line: 0,
             tests: 0,
         };
-        (self.nodes, self.steps) = (0, 0);
-        self.explore(known).unwrap_or_else(|| self.tree(Tree::Scalar))
+        let before = self.trees.len();
+        for few in [FEW, usize::MAX] {
+            (self.nodes, self.steps, self.few) = (0, 0, few);
+            if let Some(tree) = self.explore(known.clone()) {
+                return tree;
+            }
+            self.trees.truncate(before);
+            self.tree_index.retain(|_, id| id.index() < before);
+        }
+        self.tree(Tree::Scalar)
     }
 
     /// Walks the program as far as it is decided, and from there in both directions.
@@ -333,13 +355,89 @@ impl<'p, T: Real> Residual<'p, T> {
                     _ => self.term(Term::Ternary(op, a, b, c)),
                 }
             }
-            Node::Select(condition, then, other) => match self.holds(known, condition)? {
-                true => self.number(known, then)?,
-                false => self.number(known, other)?,
+            Node::Select(condition, then, other) => match self.selection(known, condition, then, other) {
+                Some(term) => term,
+                None => match self.holds(known, condition)? {
+                    true => self.number(known, then)?,
+                    false => self.number(known, other)?,
+                },
             },
         };
         self.memo.insert(expr, term);
         Ok(term)
+    }
+
+    /// A selection as a term, if its sides are small and nothing that it may need is yet to be fetched.
+    fn selection(&mut self, known: &Known, condition: CondId, then: ExprId, other: ExprId) -> Option<TermId> {
+        let mut seen = HashSet::new();
+        if self.few < usize::MAX && !(self.adds_few(then, &mut seen) && self.adds_few(other, &mut seen)) {
+            return None;
+        }
+        let condition = self.truth(known, condition).ok()?;
+        if let Some(truth) = self.constant(condition) {
+            return self.number(known, if truth == T::from_f64(0.0) { other } else { then }).ok();
+        }
+        let (then, other) = (self.number(known, then).ok()?, self.number(known, other).ok()?);
+        Some(self.choose(condition, then, other))
+    }
+
+    /// Whether an expression, with what was seen before it, is not too much that is not computed anyway.
+    fn adds_few(&self, expr: ExprId, seen: &mut HashSet<ExprId>) -> bool {
+        if self.memo.contains_key(&expr) || !seen.insert(expr) {
+            return true;
+        }
+        if seen.len() > self.few {
+            return false;
+        }
+        match self.program.pool.node(expr) {
+            Node::Const(_) | Node::Input(_) | Node::Result => true,
+            Node::Unary(_, a) => self.adds_few(a, seen),
+            Node::Binary(_, a, b) | Node::Select(_, a, b) => self.adds_few(a, seen) && self.adds_few(b, seen),
+            Node::Ternary(_, a, b, c) => [a, b, c].into_iter().all(|part| self.adds_few(part, seen)),
+        }
+    }
+
+    /// A condition as a term that is 1 or 0. All of it is computed, so it stops at what is yet to be fetched.
+    fn truth(&mut self, known: &Known, condition: CondId) -> Result<TermId, Stop> {
+        self.step()?;
+        let [no, yes] = [0.0, 1.0].map(|value| self.fixed(T::from_f64(value)));
+        match self.program.pool.cond(condition) {
+            Cond::Const(_) | Cond::Level(..) => Ok(if self.holds(known, condition)? { yes } else { no }),
+            Cond::Compare(op, a, b) => match self.holds(known, condition) {
+                Ok(holds) => Ok(if holds { yes } else { no }),
+                Err(Stop::Compare(..)) => {
+                    let (a, b) = (self.number(known, *a)?, self.number(known, *b)?);
+                    Ok(self.term(Term::Compare(*op, a, b)))
+                }
+                Err(stop) => Err(stop),
+            },
+            Cond::Not(a) => {
+                let a = self.truth(known, *a)?;
+                Ok(self.choose(a, no, yes))
+            }
+            Cond::And(parts) => parts.iter().try_fold(yes, |all, part| {
+                let part = self.truth(known, *part)?;
+                Ok(self.choose(all, part, no))
+            }),
+            Cond::Or(parts) => parts.iter().try_fold(no, |any, part| {
+                let part = self.truth(known, *part)?;
+                Ok(self.choose(any, yes, part))
+            }),
+            Cond::If(condition, then, other) => {
+                let condition = self.truth(known, *condition)?;
+                let (then, other) = (self.truth(known, *then)?, self.truth(known, *other)?);
+                Ok(self.choose(condition, then, other))
+            }
+        }
+    }
+
+    fn choose(&mut self, condition: TermId, then: TermId, other: TermId) -> TermId {
+        match self.constant(condition) {
+            Some(truth) if truth == T::from_f64(0.0) => other,
+            Some(_) => then,
+            None if then == other => then,
+            None => self.term(Term::Choose(condition, then, other)),
+        }
     }
 
     fn constant(&self, term: TermId) -> Option<T> {
@@ -368,5 +466,25 @@ impl<'p, T: Real> Residual<'p, T> {
         self.trees.push(tree.clone());
         self.tree_index.insert(tree, id);
         id
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::Table;
+
+    /// Even the printed sums over a dozen nodes, each with selections of its own.
+    #[test]
+    fn no_function_is_left_to_the_scalar_interpreter() {
+        for table in ["double_product", "double_product_printed", "spherical_gaussian", "spherical_gaussian_printed"] {
+            let table = Table::read(format!("tables/{table}.ron")).unwrap_or_else(|e| panic!("{e}"));
+            for program in Program::check_all(&table).unwrap_or_else(|e| panic!("{e}")) {
+                let mut residual = Residual::<f32>::new(&program);
+                let root = residual.specialise(&vec![0; program.inputs.len()]);
+                assert_ne!(residual.trees()[root.index()], Tree::Scalar, "{}", program.name);
+                assert!(residual.trees().len() < 64, "{}: {}", program.name, residual.trees().len());
+            }
+        }
     }
 }

@@ -1,12 +1,10 @@
 //! Plans of a table as passes that can be timed.
 
-use std::borrow::Cow;
 use std::time::Duration;
 
-use wgpu::util::DeviceExt;
-
 use super::Gpu;
-use super::kernel::{fetched_words, plain_words, storage_binding};
+use super::compute::Compute;
+use super::kernel::{bindings, buffers, fetched_words, plain_words};
 use super::timing::Stopwatch;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::harness::{Entry, Layout, WORKGROUP, reads_lookup};
@@ -43,24 +41,12 @@ impl Workload {
         }
         let key = KeyLayout::new(program)
             .map_err(|reason| Failure::bare(&*program.source.name, Diagnostic::error(codes::NOT_APPLICABLE, reason)))?;
-        let storage = |words: &[u32]| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("inputs"),
-                contents: bytemuck::cast_slice(words),
-                usage: wgpu::BufferUsages::STORAGE,
-            })
-        };
         let all = 0..columns.len();
         let workload = Self {
             rows: columns.len() as u32,
-            plain: storage(&plain_words(program, &key, Entry::Key, columns, all.clone())),
-            fetched: (layout.fetched > 0).then(|| storage(&fetched_words(program, columns, all))),
-            out: gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("results"),
-                size: (4 * columns.len().max(1) * layout.values) as u64,
-                usage: wgpu::BufferUsages::STORAGE,
-                mapped_at_creation: false,
-            }),
+            plain: gpu.storage("plain", &plain_words(program, &key, Entry::Key, columns, all.clone())),
+            fetched: (layout.fetched > 0).then(|| gpu.storage("fetched", &fetched_words(program, columns, all))),
+            out: gpu.results("out", (4 * columns.len().max(1) * layout.values) as u64),
         };
         gpu.check()?;
         Ok(workload)
@@ -75,8 +61,7 @@ impl Workload {
 /// A pass over a [`Workload`].
 #[derive(Debug)]
 pub struct Timed {
-    pipeline: wgpu::ComputePipeline,
-    group_layout: wgpu::BindGroupLayout,
+    compute: Compute,
     lookup: Option<wgpu::Buffer>,
     fetches: bool,
     rows_of_thread: u32,
@@ -107,39 +92,12 @@ impl Timed {
         lookup: Option<Vec<u32>>,
         rows_of_thread: u32,
     ) -> Result<Self, Failure> {
-        let module = wgsl_module(program, source)?;
-        let shader = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(&program.name),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module.module)),
-        });
         let fetches = !program.fetched.is_empty();
-        let mut bindings = vec![storage_binding(0, true), storage_binding(2, false)];
-        bindings.extend(fetches.then(|| storage_binding(1, true)));
-        bindings.extend(lookup.as_ref().map(|_| storage_binding(3, true)));
-        let group_layout =
-            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &bindings });
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: None,
-            bind_group_layouts: &[Some(&group_layout)],
-            immediate_size: 0,
-        });
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(&program.name),
-            layout: Some(&layout),
-            module: &shader,
-            entry_point: None,
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        let lookup = lookup.map(|words| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("lookup"),
-                contents: bytemuck::cast_slice(&words),
-                usage: wgpu::BufferUsages::STORAGE,
-            })
-        });
+        let module = wgsl_module(program, source)?;
+        let compute = Compute::new(gpu, &program.name, module, bindings(fetches, lookup.is_some()))?;
+        let lookup = lookup.map(|words| gpu.storage("lookup", &words));
         gpu.check()?;
-        Ok(Self { pipeline, group_layout, lookup, fetches, rows_of_thread })
+        Ok(Self { compute, lookup, fetches, rows_of_thread })
     }
 
     /// Goes over a workload `repeats` times in one pass and returns the time of one of them.
@@ -147,26 +105,12 @@ impl Timed {
     /// # Errors
     /// When the device fails.
     pub fn time(&self, gpu: &Gpu, watch: &Stopwatch<'_>, load: &Workload, repeats: u32) -> Result<Duration, Failure> {
-        let mut entries = vec![(0, &load.plain), (2, &load.out)];
-        entries.extend(load.fetched.as_ref().filter(|_| self.fetches).map(|buffer| (1, buffer)));
-        entries.extend(self.lookup.as_ref().map(|buffer| (3, buffer)));
-        let entries: Vec<_> = entries
-            .into_iter()
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-            .collect();
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.group_layout,
-            entries: &entries,
-        });
+        let fetched = load.fetched.as_ref().filter(|_| self.fetches);
+        let group = self.compute.bind(gpu, buffers(&load.plain, fetched, &load.out, self.lookup.as_ref()));
+        let groups = (load.rows / self.rows_of_thread).div_ceil(WORKGROUP);
         let time = watch.time(|encoder, marks| {
-            let mut pass = encoder
-                .begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes: marks.compute() });
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            for _ in 0..repeats {
-                pass.dispatch_workgroups((load.rows / self.rows_of_thread).div_ceil(WORKGROUP), 1, 1);
-            }
+            let descriptor = wgpu::ComputePassDescriptor { label: None, timestamp_writes: marks.compute() };
+            self.compute.record(&mut encoder.begin_compute_pass(&descriptor), &group, groups, repeats);
         })?;
         gpu.check()?;
         Ok(time / repeats.max(1))

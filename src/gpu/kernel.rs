@@ -1,11 +1,9 @@
 //! A table as a compute pipeline.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
-use wgpu::util::DeviceExt;
-
 use super::Gpu;
+use super::compute::{Binding, Compute};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::harness::{COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, reads_lookup, wgsl_columns};
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
@@ -46,7 +44,7 @@ pub struct Kernel<'a, 'p> {
     key: KeyLayout,
     entry: Entry,
     layout: Layout,
-    pipeline: wgpu::ComputePipeline,
+    compute: Compute,
     lookup: Option<wgpu::Buffer>,
 }
 
@@ -74,42 +72,12 @@ impl<'a, 'p> Kernel<'a, 'p> {
             Language::Wgsl => wgsl_module(program, &wgsl_columns(proved, entry))?,
             Language::Glsl => glsl_module(program, &glsl_columns(proved, entry))?,
         };
-        let shader = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(&program.name),
-            source: wgpu::ShaderSource::Naga(Cow::Owned(module.module)),
-        });
         let layout = Layout::new(program, entry);
         let has_lookup = reads_lookup(proved);
-        // Written down rather than derived from the shader, which may leave out what no case uses.
-        let mut bindings = vec![(0, true), (2, false)];
-        bindings.extend((layout.fetched > 0).then_some((1, true)));
-        bindings.extend(has_lookup.then_some((3, true)));
-        let bindings: Vec<_> =
-            bindings.into_iter().map(|(binding, read_only)| storage_binding(binding, read_only)).collect();
-        let group =
-            gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries: &bindings });
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: None,
-            bind_group_layouts: &[Some(&group)],
-            immediate_size: 0,
-        });
-        let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(&program.name),
-            layout: Some(&pipeline_layout),
-            module: &shader,
-            entry_point: None,
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
-        let lookup = has_lookup.then(|| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("lookup"),
-                contents: bytemuck::cast_slice(&lookup_words(proved.plan())),
-                usage: wgpu::BufferUsages::STORAGE,
-            })
-        });
+        let compute = Compute::new(gpu, &program.name, module, bindings(layout.fetched > 0, has_lookup))?;
+        let lookup = has_lookup.then(|| gpu.storage("lookup", &lookup_words(proved.plan())));
         gpu.check()?;
-        Ok(Self { gpu, program, key: proved.plan().key.clone(), entry, layout, pipeline, lookup })
+        Ok(Self { gpu, program, key: proved.plan().key.clone(), entry, layout, compute, lookup })
     }
 
     /// Evaluates columns, in as many dispatches as the device's limits ask for.
@@ -145,53 +113,16 @@ impl<'a, 'p> Kernel<'a, 'p> {
     ) -> Result<(), Failure> {
         let gpu = self.gpu;
         let count = end - start;
-        let storage = |label: &str, contents: &[u32]| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents: bytemuck::cast_slice(contents),
-                usage: wgpu::BufferUsages::STORAGE,
-            })
-        };
-        let plain = storage("plain", &plain_words(self.program, &self.key, self.entry, columns, start..end));
-        let fetched =
-            (self.layout.fetched > 0).then(|| storage("fetched", &fetched_words(self.program, columns, start..end)));
+        let plain = gpu.storage("plain", &plain_words(self.program, &self.key, self.entry, columns, start..end));
+        let fetched = (self.layout.fetched > 0)
+            .then(|| gpu.storage("fetched", &fetched_words(self.program, columns, start..end)));
         let size = (4 * count * self.layout.out) as u64;
-        let buffer = |label: &str, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
         // A new buffer is zeroed, so the counts of fetches start at zero.
-        let out = buffer("out", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
-        let back = buffer("back", wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+        let out = gpu.results("out", size);
         gpu.check()?;
-
-        let mut entries = vec![(0, &plain), (2, &out)];
-        entries.extend(fetched.as_ref().map(|buffer| (1, buffer)));
-        entries.extend(self.lookup.as_ref().map(|buffer| (3, buffer)));
-        let entries: Vec<_> = entries
-            .into_iter()
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-            .collect();
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups((count as u32).div_ceil(WORKGROUP), 1, 1);
-        }
-        encoder.copy_buffer_to_buffer(&out, 0, &back, 0, size);
-        gpu.queue.submit([encoder.finish()]);
-
-        gpu.read_back(&back, |bytes| self.read(bytemuck::cast_slice(bytes), outputs))
+        let group = self.compute.bind(gpu, buffers(&plain, fetched.as_ref(), &out, self.lookup.as_ref()));
+        let groups = (count as u32).div_ceil(WORKGROUP);
+        self.compute.run(gpu, &group, groups, (&out, size), |bytes| self.read(bytemuck::cast_slice(bytes), outputs))
     }
 
     fn read(&self, words: &[u32], outputs: &mut Outputs) {
@@ -267,15 +198,19 @@ pub(super) fn fetched_words(program: &Program, columns: &Columns<f32>, rows: Ran
     words
 }
 
-pub(super) fn storage_binding(binding: u32, read_only: bool) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    }
+/// The bindings of a shader over columns: plain inputs, fetched ones, results, lookup.
+pub(super) fn bindings(fetches: bool, has_lookup: bool) -> impl Iterator<Item = Binding> {
+    let some = [Some((0, true)), fetches.then_some((1, true)), Some((2, false)), has_lookup.then_some((3, true))];
+    some.into_iter().flatten()
+}
+
+/// The buffers for [`bindings`].
+pub(super) fn buffers<'b>(
+    plain: &'b wgpu::Buffer,
+    fetched: Option<&'b wgpu::Buffer>,
+    out: &'b wgpu::Buffer,
+    lookup: Option<&'b wgpu::Buffer>,
+) -> impl Iterator<Item = (u32, &'b wgpu::Buffer)> {
+    let some = [Some((0, plain)), fetched.map(|buffer| (1, buffer)), Some((2, out)), lookup.map(|buffer| (3, buffer))];
+    some.into_iter().flatten()
 }

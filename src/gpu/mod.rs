@@ -4,6 +4,7 @@
 //! driver to install when there is no adapter, what was lost when a device is.
 
 pub mod bench;
+pub(crate) mod compute;
 mod device;
 mod kernel;
 pub mod timing;

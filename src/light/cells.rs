@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::{Cap, Lobe, Settings};
+use super::{Lobe, Occluders, Settings};
 
 /// Cells of the base grid, in azimuth and polar angle.
 const BASE: (u32, u32) = (8, 4);
@@ -57,7 +57,7 @@ struct Patch {
 #[derive(Debug)]
 struct View<'a> {
     normal: DVec3,
-    caps: &'a [Cap],
+    occluders: &'a Occluders,
 }
 
 /// The direction with an azimuth and a polar angle.
@@ -69,16 +69,13 @@ pub fn direction(at: DVec2) -> DVec3 {
 impl View<'_> {
     /// Angle to the nearest change of visibility: positive where visible.
     fn distance(&self, at: DVec2) -> f64 {
-        let direction = direction(at);
-        let horizon = self.normal.dot(direction).clamp(-1.0, 1.0).asin();
-        let caps = self.caps.iter().map(|cap| cap.axis.dot(direction).clamp(-1.0, 1.0).acos() - cap.angle);
-        caps.fold(horizon, f64::min)
+        self.occluders.distance(self.normal, direction(at))
     }
 }
 
-/// Divides the directions that are visible at a place with this normal, behind these caps.
-pub fn divide(normal: DVec3, caps: &[Cap], lobes: &[Lobe], settings: &Settings) -> Division {
-    let view = View { normal, caps };
+/// Divides the directions that are visible at a place with this normal, between these occluders.
+pub fn divide(normal: DVec3, occluders: &Occluders, lobes: &[Lobe], settings: &Settings) -> Division {
+    let view = View { normal, occluders };
     let step = DVec2::new(TAU / f64::from(BASE.0), PI / f64::from(BASE.1));
     let mut stack: Vec<Patch> = (0..BASE.0 * BASE.1)
         .map(|i| {
@@ -272,6 +269,7 @@ fn edge(patch: Patch, from: DVec2, to: DVec2, cell: usize, out: &mut Vec<Edge>) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::light::{Cap, Facet};
 
     /// The solid angle of a division: of each edge by a fine midpoint sum.
     fn solid_angle(division: &Division) -> f64 {
@@ -290,16 +288,25 @@ mod tests {
     #[test]
     fn the_pieces_make_up_the_visible_solid_angle() {
         let settings = Settings { border: 0.01, lobe: 1.0, depth: 7 };
-        let all = divide(DVec3::Z, &[], &[], &settings);
+        let open = Occluders::default();
+        let all = divide(DVec3::Z, &open, &[], &settings);
         assert!((solid_angle(&all) - TAU).abs() < 1e-3, "{}", solid_angle(&all));
 
         let tilted = DVec3::new(0.3, -0.4, 0.866).normalize();
-        let half = solid_angle(&divide(tilted, &[], &[], &settings));
+        let half = solid_angle(&divide(tilted, &open, &[], &settings));
         assert!((half - TAU).abs() < 0.01, "{half}");
 
         let cap = Cap { axis: DVec3::new(0.5, 0.2, 0.8).normalize(), angle: 0.4 };
-        let rest = solid_angle(&divide(DVec3::Z, &[cap], &[], &settings));
+        let behind_cap = Occluders { caps: vec![cap], facets: Vec::new() };
+        let rest = solid_angle(&divide(DVec3::Z, &behind_cap, &[], &settings));
         let expected = TAU - TAU * (1.0 - cap.angle.cos());
+        assert!((rest - expected).abs() < 0.01, "{rest} {expected}");
+
+        // An eighth of the sphere.
+        let corners = [DVec3::X, DVec3::Y, DVec3::Z].map(|corner| 3.0 * corner);
+        let behind_facet = Occluders { caps: Vec::new(), facets: vec![Facet::new(corners.into_iter())] };
+        let rest = solid_angle(&divide(DVec3::Z, &behind_facet, &[], &settings));
+        let expected = TAU - 0.5 * PI;
         assert!((rest - expected).abs() < 0.01, "{rest} {expected}");
     }
 

@@ -7,8 +7,8 @@ use image::{Rgb, RgbImage};
 use rayon::prelude::*;
 
 use super::cells::{Division, Edge, divide};
-use super::tables::Machine;
-use super::{Executor, Lobe, Scene, Settings, Surface, Tables};
+use super::tables::Interpreters;
+use super::{Lobe, Scene, Settings, Surface, Tables};
 use crate::diag::Failure;
 
 /// Angle of view from bottom to top.
@@ -17,19 +17,31 @@ const VIEW: f64 = 0.7;
 /// Points whose edges are evaluated together.
 const PORTION: usize = 2048;
 
-/// What is computed for a picture, row by row.
-#[derive(Debug, Clone, PartialEq)]
+/// What is computed for surfaces, one after the other.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Shaded {
-    /// Its width in pixels.
-    pub width: u32,
-    /// Its height.
-    pub height: u32,
     /// Light that is sent to the camera; `None` where nothing is hit.
     pub light: Vec<Option<DVec3>>,
-    /// Cells with a visible part, per pixel.
+    /// Cells with a visible part.
     pub cells: Vec<u32>,
-    /// Edges that were integrated, per pixel.
+    /// Edges that were integrated.
     pub edges: Vec<u32>,
+}
+
+impl Shaded {
+    /// Adds what was computed for the next surface.
+    pub(super) fn push(&mut self, light: Option<DVec3>, cells: u32, edges: u32) {
+        self.light.push(light);
+        self.cells.push(cells);
+        self.edges.push(edges);
+    }
+}
+
+impl Surface {
+    /// What it sends on of the light that falls on it.
+    pub(super) fn sent(&self, light: DVec3) -> DVec3 {
+        light * self.albedo / PI
+    }
 }
 
 /// The surfaces behind the pixels of a picture.
@@ -46,61 +58,47 @@ pub fn surfaces(scene: &Scene, width: u32, height: u32) -> Vec<Option<Surface>> 
     (0..width * height).into_par_iter().map(pixel).collect()
 }
 
-/// A picture by the tables.
+/// Light at surfaces by the tables and their batch interpreter.
 ///
 /// # Errors
-/// If a table does not have the functions that it should, or a device fails.
-pub fn shade<'t>(
+/// If a table does not have the functions that it should.
+pub fn shade(
     scene: &Scene,
-    tables: &'t Tables,
-    executor: &Executor<'t>,
+    tables: &Tables,
     settings: &Settings,
-    width: u32,
-    height: u32,
+    surfaces: &[Option<Surface>],
 ) -> Result<Shaded, Failure> {
-    let surfaces = surfaces(scene, width, height);
-    let some = |surfaces: &[Option<Surface>]| -> Result<Vec<Pixel>, Failure> {
-        let mut machine = executor.machine(tables);
-        let portions =
-            surfaces.chunks(PORTION).map(|portion| shade_some(scene, tables, &mut machine, settings, portion));
-        Ok(portions.collect::<Result<Vec<_>, Failure>>()?.into_iter().flatten().collect())
-    };
-    let parts: Vec<Vec<Pixel>> = match executor {
-        Executor::Interpreter => {
-            // A part for each thread, as every interpreter has to specialise the tables for itself.
-            let part = surfaces.len().div_ceil(rayon::current_num_threads()).max(1);
-            surfaces.par_chunks(part).map(some).collect::<Result<_, Failure>>()?
+    // A part for each thread, as every interpreter has to specialise the tables for itself.
+    let part = surfaces.len().div_ceil(rayon::current_num_threads()).max(1);
+    let shade_part = |surfaces: &[Option<Surface>]| -> Result<Shaded, Failure> {
+        let mut interpreters = tables.interpreters();
+        let mut shaded = Shaded::default();
+        for portion in surfaces.chunks(PORTION) {
+            shade_some(scene, tables, &mut interpreters, settings, portion, &mut shaded)?;
         }
-        // A device takes its work in portions, one after the other.
-        Executor::Shaders(..) => vec![some(&surfaces)?],
+        Ok(shaded)
     };
-    let all: Vec<Pixel> = parts.into_iter().flatten().collect();
-    Ok(Shaded {
-        width,
-        height,
-        light: all.iter().map(|pixel| pixel.light).collect(),
-        cells: all.iter().map(|pixel| pixel.cells).collect(),
-        edges: all.iter().map(|pixel| pixel.edges).collect(),
-    })
-}
-
-/// What is computed for one pixel.
-struct Pixel {
-    light: Option<DVec3>,
-    cells: u32,
-    edges: u32,
+    let parts: Vec<Shaded> = surfaces.par_chunks(part).map(shade_part).collect::<Result<_, Failure>>()?;
+    let mut all = Shaded::default();
+    for part in parts {
+        all.light.extend(part.light);
+        all.cells.extend(part.cells);
+        all.edges.extend(part.edges);
+    }
+    Ok(all)
 }
 
 /// Light, cells and edges of some surfaces.
 fn shade_some(
     scene: &Scene,
     tables: &Tables,
-    machine: &mut Machine<'_, '_>,
+    interpreters: &mut Interpreters<'_>,
     settings: &Settings,
     surfaces: &[Option<Surface>],
-) -> Result<Vec<Pixel>, Failure> {
+    shaded: &mut Shaded,
+) -> Result<(), Failure> {
     let division = |surface: &Option<Surface>| match surface {
-        Some(surface) => divide(surface.normal, &scene.caps(surface), &scene.lobes, settings),
+        Some(surface) => divide(surface.normal, &scene.occluders(surface), &scene.lobes, settings),
         None => Division::default(),
     };
     let divisions: Vec<Division> = surfaces.par_iter().map(division).collect();
@@ -113,9 +111,8 @@ fn shade_some(
         all.cells.extend(division.cells);
         ends.push((all.cells.len(), all.edges.len()));
     }
-    let lines = tables.lines(machine, &all.cells, &scene.lobes)?;
-    let moments = tables.moments(machine, &all.edges)?;
-    let mut result = Vec::with_capacity(surfaces.len());
+    let lines = tables.lines(interpreters, &all.cells, &scene.lobes)?;
+    let moments = tables.moments(interpreters, &all.edges)?;
     let (mut cell, mut edge) = (0, 0);
     for (surface, (last_cell, last_edge)) in surfaces.iter().zip(ends) {
         let light = surface.as_ref().map(|surface| {
@@ -127,26 +124,26 @@ fn shade_some(
                     sum += lobe.amplitude * (edge.sign * (alpha * along + beta * lobe.axis.dot(tensor)));
                 }
             }
-            sum * surface.albedo / PI
+            surface.sent(sum)
         });
-        result.push(Pixel { light, cells: (last_cell - cell) as u32, edges: (last_edge - edge) as u32 });
+        shaded.push(light, (last_cell - cell) as u32, (last_edge - edge) as u32);
         (cell, edge) = (last_cell, last_edge);
     }
-    Ok(result)
+    Ok(())
 }
 
 /// The light at a surface by a sum over these directions.
 pub fn brute_force(scene: &Scene, surface: &Surface, directions: &[(DVec3, DVec3)]) -> DVec3 {
-    let caps: Vec<(DVec3, f64)> = scene.caps(surface).iter().map(|cap| (cap.axis, cap.angle.cos())).collect();
-    let visible = |direction: DVec3| caps.iter().all(|(axis, cosine)| axis.dot(direction) < *cosine);
+    let occluders = scene.occluders(surface);
+    let hidden = occluders.hide();
     let sum: DVec3 = directions
         .iter()
         .map(|(direction, light)| {
             let cosine = surface.normal.dot(*direction);
-            if cosine > 0.0 && visible(*direction) { *light * cosine } else { DVec3::ZERO }
+            if cosine > 0.0 && !hidden(*direction) { *light * cosine } else { DVec3::ZERO }
         })
         .sum();
-    sum * surface.albedo / PI
+    surface.sent(sum)
 }
 
 /// Directions of equal solid angle with the light from each, times that solid angle.
@@ -192,11 +189,11 @@ mod tests {
         let tables = Tables::new().unwrap_or_else(|e| panic!("{e}"));
         let (width, height) = (16, 9);
         let settings = Settings::with_threshold(0.03);
-        let shaded = shade(&scene, &tables, &Executor::Interpreter, &settings, width, height);
-        let shaded = shaded.unwrap_or_else(|e| panic!("{e}"));
+        let surfaces = surfaces(&scene, width, height);
+        let shaded = shade(&scene, &tables, &settings, &surfaces).unwrap_or_else(|e| panic!("{e}"));
         let directions = directions(&scene.lobes, 96);
         let (mut error, mut whole) = (0.0, 0.0);
-        for (surface, light) in surfaces(&scene, width, height).iter().zip(&shaded.light) {
+        for (surface, light) in surfaces.iter().zip(&shaded.light) {
             let (Some(surface), Some(light)) = (surface, light) else { continue };
             let exact = brute_force(&scene, surface, &directions);
             error += (*light - exact).length_squared();

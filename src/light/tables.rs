@@ -5,14 +5,8 @@ use glam::DVec3;
 use super::Lobe;
 use super::cells::{Cell, Edge};
 use crate::diag::{Diagnostic, Failure, Source, codes};
-#[cfg(feature = "gpu")]
-use crate::emit::harness::Entry;
-use crate::eval::{Batch, Columns};
-#[cfg(feature = "gpu")]
-use crate::gpu::{Gpu, Kernel, Language};
-#[cfg(feature = "gpu")]
-use crate::plan::{Plan, Shape};
-use crate::program::{Program, Value};
+use crate::eval::{Batch, Column, Columns, Results};
+use crate::program::{Input, Program};
 use crate::table::Table;
 
 /// What the function of moments calls its numbers: ∫∫ ω, then ∫∫ ω ω.
@@ -26,6 +20,8 @@ pub struct Tables {
     order: [usize; 9],
     alpha: Program,
     beta: Program,
+    #[cfg(feature = "gpu")]
+    interval: Program,
 }
 
 /// The integrals of direction, and of direction times direction, over the area that belongs to an edge.
@@ -71,39 +67,43 @@ impl Tables {
         }
         let alpha = function(gaussian.0, gaussian.1, "alpha")?;
         let beta = function(gaussian.0, gaussian.1, "beta")?;
-        Ok(Self { moments, order, alpha, beta })
+        #[cfg(feature = "gpu")]
+        let interval = function(gaussian.0, gaussian.1, "interval")?;
+        Ok(Self {
+            moments,
+            order,
+            alpha,
+            beta,
+            #[cfg(feature = "gpu")]
+            interval,
+        })
     }
 
-    /// Points of a program from one row of numbers each, in the order of its inputs.
+    /// Points of a program from one row of numbers each, in the order of these names.
     fn columns<const N: usize>(
         program: &Program,
         names: [&str; N],
         rows: impl Iterator<Item = [f64; N]>,
     ) -> Result<Columns<f32>, Failure> {
-        let place = |name: &str| {
-            program.input(name).ok_or_else(|| {
-                let message = format!("`{}` has no parameter `{name}`", program.name);
-                Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message))
-            })
-        };
-        let places = names.iter().map(|name| place(name)).collect::<Result<Vec<_>, _>>()?;
-        let mut columns = Columns::new(program);
-        let mut point: Vec<Option<Value>> = vec![None; program.inputs.len()];
+        let wrong = |message: String| Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message));
+        let mut numbers: [Vec<f32>; N] = std::array::from_fn(|_| Vec::with_capacity(rows.size_hint().0));
         for row in rows {
-            for (place, number) in places.iter().zip(row) {
-                point[place.index()] = Some(Value::Number(number));
-            }
-            columns
-                .push(&point)
-                .map_err(|error| Failure::bare("tables", Diagnostic::error(codes::BAD_COLUMN, format!("{error:?}"))))?;
+            numbers.iter_mut().zip(row).for_each(|(column, number)| column.push(number as f32));
         }
-        Ok(columns)
+        let column = |input: &Input| {
+            let place = names.iter().position(|name| *name == input.name)?;
+            Some(Column::Numbers { values: std::mem::take(&mut numbers[place]), present: None })
+        };
+        let columns: Option<Vec<Column<f32>>> = program.inputs.iter().map(column).collect();
+        let columns =
+            columns.ok_or_else(|| wrong(format!("`{}` has other parameters than {names:?}", program.name)))?;
+        Columns::from_columns(program, columns).map_err(|error| wrong(format!("`{}`: {error}", program.name)))
     }
 
     /// The linear approximations of all lobes in all cells, cell by cell.
     pub(super) fn lines(
         &self,
-        machine: &mut Machine<'_, '_>,
+        interpreters: &mut Interpreters<'_>,
         cells: &[Cell],
         lobes: &[Lobe],
     ) -> Result<Vec<Line>, Failure> {
@@ -112,22 +112,22 @@ impl Tables {
             .iter()
             .flat_map(|cell| lobes.iter().zip(&cell.ranges).map(|(lobe, (a, b))| [1.0, lobe.sharpness, *a, *b]));
         let columns = Self::columns(&self.alpha, ["mu", "lambda", "a", "b"], rows)?;
-        let alpha = machine.evaluate(Which::Alpha, &columns)?;
-        let beta = machine.evaluate(Which::Beta, &columns)?;
-        let wide = |column: &[f32]| column.iter().map(|v| f64::from(*v)).collect::<Vec<f64>>();
-        Ok(wide(&alpha[0]).into_iter().zip(wide(&beta[0])).collect())
+        let alpha = evaluate(&mut interpreters.alpha, &columns)?;
+        let beta = evaluate(&mut interpreters.beta, &columns)?;
+        let lines = alpha.values(0).iter().zip(beta.values(0));
+        Ok(lines.map(|(alpha, beta)| (f64::from(*alpha), f64::from(*beta))).collect())
     }
 
     /// The moments of all edges.
-    pub(super) fn moments(&self, machine: &mut Machine<'_, '_>, edges: &[Edge]) -> Result<Vec<Moments>, Failure> {
+    pub(super) fn moments(&self, interpreters: &mut Interpreters<'_>, edges: &[Edge]) -> Result<Vec<Moments>, Failure> {
         let names = ["phi0", "phi1", "theta0", "theta_a", "theta_b"];
         let rows = edges.iter().map(|edge| {
             let [a, b] = edge.ends;
             [a.x, b.x, edge.theta, a.y, b.y]
         });
         let columns = Self::columns(&self.moments, names, rows)?;
-        let results = machine.evaluate(Which::Moments, &columns)?;
-        let number = |which: usize, edge: usize| f64::from(results[self.order[which]][edge]);
+        let results = evaluate(&mut interpreters.moments, &columns)?;
+        let number = |which: usize, edge: usize| f64::from(results.values(self.order[which])[edge]);
         Ok((0..edges.len())
             .map(|edge| Moments {
                 first: DVec3::new(number(0, edge), number(1, edge), number(2, edge)),
@@ -136,104 +136,38 @@ impl Tables {
             .collect())
     }
 
+    /// The moments of pieces.
     #[cfg(feature = "gpu")]
-    fn program(&self, which: Which) -> &Program {
-        match which {
-            Which::Moments => &self.moments,
-            Which::Alpha => &self.alpha,
-            Which::Beta => &self.beta,
+    pub(super) fn moments_of_pieces(&self) -> &Program {
+        &self.moments
+    }
+
+    /// What a shader evaluates that divides the directions by itself.
+    #[cfg(feature = "gpu")]
+    pub(super) fn for_shaders(&self) -> [&Program; 4] {
+        [&self.moments, &self.alpha, &self.beta, &self.interval]
+    }
+
+    /// Interpreters for the functions.
+    pub(super) fn interpreters(&self) -> Interpreters<'_> {
+        Interpreters {
+            moments: Batch::new(&self.moments),
+            alpha: Batch::new(&self.alpha),
+            beta: Batch::new(&self.beta),
         }
     }
-
-    /// The functions as shaders on a device.
-    ///
-    /// # Errors
-    /// When the device refuses them.
-    #[cfg(feature = "gpu")]
-    pub fn on<'t>(&'t self, gpu: &'t Gpu) -> Result<Shaders<'t>, Failure> {
-        let kernel = |which: Which| {
-            let proved = Plan::proved(self.program(which), Shape::Ladder)?;
-            Kernel::new(gpu, &proved, Entry::Levels, Language::Wgsl)
-        };
-        Ok(Shaders { moments: kernel(Which::Moments)?, alpha: kernel(Which::Alpha)?, beta: kernel(Which::Beta)? })
-    }
 }
 
-/// One of the functions.
-#[derive(Debug, Clone, Copy)]
-enum Which {
-    Moments,
-    Alpha,
-    Beta,
-}
-
-/// The functions as shaders.
-#[cfg(feature = "gpu")]
+/// Interpreters for the functions, which keep what they have specialised.
 #[derive(Debug)]
-pub struct Shaders<'t> {
-    moments: Kernel<'t, 't>,
-    alpha: Kernel<'t, 't>,
-    beta: Kernel<'t, 't>,
+pub(super) struct Interpreters<'t> {
+    moments: Batch<'t, f32>,
+    alpha: Batch<'t, f32>,
+    beta: Batch<'t, f32>,
 }
 
-/// What evaluates the tables.
-#[derive(Debug)]
-pub enum Executor<'t> {
-    /// The batch interpreter.
-    Interpreter,
-    /// Shaders made from the tables.
-    #[cfg(feature = "gpu")]
-    Shaders(Box<Shaders<'t>>),
-    /// What is not there, as no device is.
-    #[cfg(not(feature = "gpu"))]
-    Shaders(std::convert::Infallible, std::marker::PhantomData<&'t ()>),
-}
-
-/// An executor at work: batch interpreters keep what they have specialised.
-pub(super) enum Machine<'a, 't> {
-    /// Moments, alpha, beta.
-    Batches(Box<[Batch<'t, f32>; 3]>),
-    #[cfg(feature = "gpu")]
-    Shaders(&'a Shaders<'t>),
-    #[cfg(not(feature = "gpu"))]
-    Shaders(std::convert::Infallible, std::marker::PhantomData<&'a ()>),
-}
-
-impl<'t> Executor<'t> {
-    pub(super) fn machine<'a>(&'a self, tables: &'t Tables) -> Machine<'a, 't> {
-        match self {
-            Executor::Interpreter => {
-                Machine::Batches(Box::new([&tables.moments, &tables.alpha, &tables.beta].map(Batch::new)))
-            }
-            #[cfg(feature = "gpu")]
-            Executor::Shaders(shaders) => Machine::Shaders(shaders),
-            #[cfg(not(feature = "gpu"))]
-            Executor::Shaders(never, _) => match *never {},
-        }
-    }
-}
-
-impl Machine<'_, '_> {
-    /// One column per number that the function returns.
-    fn evaluate(&mut self, which: Which, columns: &Columns<f32>) -> Result<Vec<Vec<f32>>, Failure> {
-        match self {
-            Machine::Batches(batches) => {
-                let results = batches[which as usize].evaluate(columns).map_err(|_| missing())?;
-                Ok((0..results.components()).map(|component| results.values(component).to_vec()).collect())
-            }
-            #[cfg(feature = "gpu")]
-            Machine::Shaders(shaders) => {
-                let kernel = match which {
-                    Which::Moments => &shaders.moments,
-                    Which::Alpha => &shaders.alpha,
-                    Which::Beta => &shaders.beta,
-                };
-                Ok(kernel.run(columns)?.values)
-            }
-            #[cfg(not(feature = "gpu"))]
-            Machine::Shaders(never, _) => match *never {},
-        }
-    }
+fn evaluate(batch: &mut Batch<'_, f32>, columns: &Columns<f32>) -> Result<Results<f32>, Failure> {
+    batch.evaluate(columns).map_err(|_| missing())
 }
 
 fn missing() -> Failure {

@@ -2,16 +2,23 @@
 //!
 //! The reference is the *original* formula, evaluated beside each point so that
 //! its removable singularities have their limits ([`Precise::limit`]); nothing
-//! about the rewriting is trusted. Points are spread over the domain, and on and
-//! around every singularity that the analysis finds in the original.
+//! about the rewriting is trusted. Points are spread over the domain, on and
+//! around every singularity that the analysis finds in the original, and where
+//! the declared scale is least: where little is left of what is subtracted.
+//!
+//! At the same points the new form is evaluated in intervals. What they admit
+//! bounds the error of every executor that keeps WGSL's accuracy rules.
 
 use crate::analyse::{domain_points, singularities};
 use crate::diag::Failure;
-use crate::eval::{Interpreter, NOTHING, Precise};
+use crate::eval::{Interpreter, IntervalInterpreter, NOTHING, Precise};
 use crate::program::{Domain, Program, Value};
 
 /// Points spread over the domain, for each function.
 const SPREAD: usize = 80;
+
+/// Points from which the least scale is looked for.
+const THIN: usize = 16;
 
 /// Distances from a singularity at which a function is tried.
 const DISTANCES: [f64; 5] = [0.0, 1e-7, 1e-5, 1e-4, 1e-2];
@@ -43,6 +50,17 @@ pub struct Certificate {
     pub before: Measured,
     /// The new form.
     pub after: Measured,
+    /// Largest error that WGSL admits of the new form at these points, in the same units; without one, the reason.
+    pub admitted: Result<f64, String>,
+    /// What was declared to be allowed, in the same units.
+    pub claimed: Option<f64>,
+}
+
+impl Certificate {
+    /// Whether the new form is as accurate as declared; without a claim, whether it is finite.
+    pub fn is_met(&self) -> bool {
+        self.after.not_finite == 0 && self.claimed.is_none_or(|claimed| self.after.units <= claimed)
+    }
 }
 
 impl super::Stabilised {
@@ -84,6 +102,7 @@ fn points(program: &Program) -> Vec<Vec<Value>> {
             }
         }
     }
+    all.extend(thin(program));
     let assumed = |point: &Vec<Value>| {
         let given: Vec<Option<Value>> = point.iter().copied().map(Some).collect();
         let mut interpreter = Interpreter::<f64>::new(program);
@@ -94,10 +113,50 @@ fn points(program: &Program) -> Vec<Vec<Value>> {
     all
 }
 
+/// Points at and around the least scale along one input; the inputs take turns.
+fn thin(program: &Program) -> Vec<Vec<Value>> {
+    let Some(accuracy) = program.function.as_ref().and_then(|function| function.accuracy.as_ref()) else {
+        return Vec::new();
+    };
+    let inputs: Vec<usize> = program.pool.expr_facts(accuracy.scale).inputs.iter().map(|input| input.index()).collect();
+    let mut interpreter = Interpreter::<f64>::new(program);
+    let mut scale = |point: &[Value]| {
+        let given: Vec<Option<Value>> = point.iter().copied().map(Some).collect();
+        let found = interpreter.place(&given).ok().and_then(|()| interpreter.number(accuracy.scale).ok());
+        found.map_or(f64::INFINITY, f64::abs)
+    };
+    let mut all = Vec::new();
+    for (mut point, input) in domain_points(program, THIN).into_iter().zip(inputs.into_iter().cycle()) {
+        let (Value::Number(mut centre), Domain::Continuous { lo, hi, .. }) =
+            (point[input], &program.inputs[input].domain)
+        else {
+            continue;
+        };
+        let mut width = (hi - lo).min(8.0);
+        for _ in 0..32 {
+            let values = (-8..=8).map(|step| (centre + width * f64::from(step) / 8.0).clamp(*lo, *hi));
+            let measured = values.map(|value| {
+                point[input] = Value::Number(value);
+                (scale(&point), value)
+            });
+            let Some((_, least)) = measured.min_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+            centre = least;
+            width *= 0.4;
+        }
+        for distance in DISTANCES.into_iter().flat_map(|d| [d, -d]) {
+            point[input] = Value::Number(f64::from((centre + distance).clamp(*lo, *hi) as f32).clamp(*lo, *hi));
+            all.push(point.clone());
+        }
+    }
+    all
+}
+
 fn certificate(old: &Program, new: &Program) -> Option<Certificate> {
     let mut judge = Precise::new(old)?;
     let (mut before, mut after) = (Measured::default(), Measured::default());
     let (mut count, mut left_out) = (0, 0);
+    let mut intervals = IntervalInterpreter::new(new);
+    let mut admitted = Ok(0.0_f64);
     for point in points(old) {
         let given: Vec<Option<Value>> = point.iter().copied().map(Some).collect();
         let Ok(exact) = judge.limit(&given) else {
@@ -120,9 +179,42 @@ fn certificate(old: &Program, new: &Program) -> Option<Certificate> {
                 }
             }
         }
+        if let Ok(worst) = admitted {
+            admitted = admissible(new, &mut intervals, &given, &exact, &allowed).map(|units| worst.max(units));
+        }
     }
+    let claimed = old.function.as_ref().and_then(|function| function.accuracy.as_ref()).map(|claim| claim.times);
     let name = old.function.as_ref().map_or_else(|| old.name.clone(), |function| function.name.clone());
-    Some(Certificate { name, points: count, left_out, before, after })
+    Some(Certificate { name, points: count, left_out, before, after, admitted, claimed })
+}
+
+/// The largest error that is admissible at a point; an error says why there is none.
+fn admissible(
+    new: &Program,
+    intervals: &mut IntervalInterpreter<'_>,
+    point: &[Option<Value>],
+    exact: &[f64],
+    allowed: &[f64],
+) -> Result<f64, String> {
+    let place = || {
+        let values = new.inputs.iter().zip(point);
+        let shown = values.filter_map(|(input, value)| Some(format!("{} = {}", input.name, input.show((*value)?))));
+        shown.collect::<Vec<_>>().join(", ")
+    };
+    let found = intervals.admissible(point).map_err(|_| "an input is missing".to_owned())?;
+    if found.everything {
+        return Err(format!("too many choices are open at {}", place()));
+    }
+    let mut worst = 0.0_f64;
+    for outcome in &found.outcomes {
+        for ((value, exact), allowed) in outcome.values.iter().zip(exact).zip(allowed) {
+            if value.is_any() {
+                return Err(format!("WGSL promises nothing of an operation at {}", place()));
+            }
+            worst = worst.max((value.hi() - exact).max(exact - value.lo()) / allowed);
+        }
+    }
+    Ok(worst)
 }
 
 /// What half a unit in the last place of each input can change, summed, and half a unit of the scale: the

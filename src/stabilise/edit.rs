@@ -1,8 +1,7 @@
 //! The text of the new table: that of the old one, with values replaced and
 //! helpers added. Everything else stays as it is written, comments included.
 
-use super::kernel::Kernels;
-use super::print;
+use super::{Added, gauss, print};
 use crate::table::{Function, FunctionBody, Table};
 
 /// Longest line that is written.
@@ -15,8 +14,8 @@ struct Edit {
     text: String,
 }
 
-/// Puts new values and kernels into the text of a table.
-pub(super) fn apply(table: &Table, values: &[(&Function, String)], kernels: &Kernels) -> String {
+/// Puts new values, kernels and densities into the text of a table.
+pub(super) fn apply(table: &Table, values: &[(&Function, String)], added: &Added) -> String {
     let source = &table.source.text;
     let mut edits = Vec::new();
     for (function, value) in values {
@@ -37,20 +36,38 @@ pub(super) fn apply(table: &Table, values: &[(&Function, String)], kernels: &Ker
         end: name.span.end,
         text: renamed(source, name.span, &format!("{stem}_stable")),
     });
-    if !kernels.0.is_empty() {
-        let helpers: String = kernels.0.iter().map(|kernel| print::helper(kernel, "        ")).collect();
-        edits.push(match table.helpers.first() {
-            Some(first) => {
-                let at = line_start(source, first.name.span.start);
-                Edit { start: at, end: at, text: helpers }
-            }
-            None => {
-                let first = table.functions.first().map_or(0, |function| function.name.span.start);
-                let at = source[..first].rfind("functions").map_or(first, |at| line_start(source, at));
-                Edit { start: at, end: at, text: format!("    helpers: {{\n{helpers}    }},\n") }
-            }
-        });
+    // The new table is no exhibit, and remarks in front of the old one are about that.
+    edits.extend(table.exhibit.as_ref().and_then(|_| line(source, "    exhibit:")).map(|(start, end)| Edit {
+        start,
+        end,
+        text: String::new(),
+    }));
+    edits.extend(source.find("Table(").filter(|at| *at > 0).map(|end| Edit { start: 0, end, text: String::new() }));
+    if let Some((_, end)) = line(source, "    title:").filter(|_| !table.title.is_empty()) {
+        let quote = source[..end].rfind('"').unwrap_or(end);
+        edits.push(Edit { start: quote, end: quote, text: ", stabilised".to_owned() });
     }
+    let kernels = added.kernels.0.iter().map(|kernel| print::helper(kernel, "        "));
+    let helpers: String = kernels.chain(added.densities.iter().cloned()).collect();
+    let constants = if added.densities.is_empty() { String::new() } else { gauss::constants("        ") };
+    let first_function = table.functions.first().map_or(0, |function| function.name.span.start);
+    let before_functions =
+        source[..first_function].rfind("functions").map_or(first_function, |at| line_start(source, at));
+    let mut new_fields = String::new();
+    for (field, entries, first) in [
+        ("constants", constants, table.constants.first().map(|constant| constant.name.span.start)),
+        ("helpers", helpers, table.helpers.first().map(|helper| helper.name.span.start)),
+    ] {
+        match first {
+            _ if entries.is_empty() => {}
+            Some(first) => {
+                let at = line_start(source, first);
+                edits.push(Edit { start: at, end: at, text: entries });
+            }
+            None => new_fields.push_str(&format!("    {field}: {{\n{entries}    }},\n")),
+        }
+    }
+    edits.push(Edit { start: before_functions, end: before_functions, text: new_fields });
     edits.sort_by_key(|edit| edit.start);
     let mut text = String::with_capacity(source.len());
     let mut done = 0;
@@ -75,6 +92,12 @@ fn line_start(source: &str, at: usize) -> usize {
     source[..at].rfind('\n').map_or(0, |end| end + 1)
 }
 
+/// The line that begins with these words, line break included.
+fn line(source: &str, words: &str) -> Option<(usize, usize)> {
+    let start = source.find(&format!("\n{words}"))? + 1;
+    Some((start, start + source[start..].find('\n')? + 1))
+}
+
 /// The field `let: { .. },` around its entries.
 fn field(source: &str, first: usize, last: usize) -> Option<(usize, usize)> {
     let start = source[..first].rfind("let:")?;
@@ -84,14 +107,14 @@ fn field(source: &str, first: usize, last: usize) -> Option<(usize, usize)> {
     Some((start, end + comma + rest))
 }
 
-/// Breaks a value at its bindings, and at signs where lines get too long.
+/// Breaks a value at its bindings and choices, and at signs where lines get too long.
 fn wrapped(value: &str) -> String {
-    let parts: Vec<String> = value.split("; ").map(str::to_owned).collect();
-    let last = parts.len() - 1;
+    let marked = value.replace("; ", ";\n").replace("} else ", "}\nelse ");
+    let parts: Vec<&str> = marked.split('\n').collect();
     let indent = "\n            ";
     let mut text = String::new();
-    for (i, part) in parts.iter().enumerate() {
-        if last > 0 {
+    for part in &parts {
+        if parts.len() > 1 {
             text.push_str(indent);
         }
         let mut width = 0;
@@ -105,9 +128,6 @@ fn wrapped(value: &str) -> String {
             }
             text.push_str(word);
             width += word.len();
-        }
-        if i < last {
-            text.push(';');
         }
     }
     text

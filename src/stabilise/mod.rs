@@ -1,40 +1,47 @@
 //! Tables whose formulas divide by zero, rewritten so that they do not.
 //!
-//! The rules know two patterns in which closed forms of integrals come to 0/0:
+//! The rules know three patterns in which closed forms of integrals lose their
+//! digits:
 //!
 //! - *differences of antiderivatives*, `F | x = lo .. hi` with sines and cosines
 //!   in F: [`between`] writes them as products in which the divisor is gone;
 //! - *quotients that are functions of one quantity*, such as sinh(y)/y: [`kernel`]
 //!   collects them and gives them a series near zero. An exponential in front of
-//!   sinh and cosh takes their growth first, so that nothing overflows.
+//!   sinh and cosh takes their growth first, so that nothing overflows;
+//! - *an upper side minus a lower one*, spread over several such differences:
+//!   [`integrand`] finds what is integrated, [`sides`] writes it as a product,
+//!   [`gauss`] integrates it by as many nodes as it takes.
 //!
-//! Both work on sums of products ([`poly`]), in which equal terms cancel exactly.
-//! A function that neither divides nor takes a difference stays as it is
-//! written; it gains from the functions it calls. What else makes a formula
-//! inaccurate, above all differences between functions, no rule touches: the
-//! certificate says what was reached.
+//! All work on sums of products ([`poly`]), in which equal terms cancel exactly.
+//! A function that no pattern fits stays as it is written; it gains from the
+//! functions it calls. What was reached the certificate says.
 
 mod between;
 mod certify;
 mod edit;
+mod gauss;
+mod integrand;
 mod kernel;
 mod poly;
 mod print;
 mod read;
 mod series;
+mod sides;
 #[cfg(test)]
 mod tests;
+mod trig;
 
 use std::collections::BTreeSet;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::program::normal::Rational;
-use crate::table::Table;
+use crate::table::{Function, FunctionBody, Table};
 use kernel::{Argument, Kernels};
 use num_traits::One;
 use poly::{Atom, Mono, Poly, multiply};
 use print::Printer;
-use read::Reader;
+use read::{Bounds, Reader};
+use sides::{Density, Names};
 
 pub use certify::{Certificate, Measured};
 
@@ -54,6 +61,8 @@ pub struct Stabilised {
 pub enum Outcome {
     /// It has a new formula.
     Rewritten,
+    /// It integrates a product instead of subtracting integrals.
+    Integrated,
     /// It neither divides nor takes a difference between bounds.
     AsWritten,
     /// No rule applies, for this reason.
@@ -71,28 +80,148 @@ pub fn stabilise(table: &Table) -> Result<Stabilised, Failure> {
             .help("`stabilise` rewrites formulas of functions; `umbrage check` finds singularities of cases");
         return Err(Failure { source: table.source.clone(), diagnostics: vec![error] });
     }
-    let mut kernels = Kernels::default();
+    let sides = Sides::of(table);
+    let mut added = Added::default();
     let mut values = Vec::new();
     let mut functions = Vec::new();
     for function in &table.functions {
-        let outcome = match value(table, function, &mut kernels) {
-            Ok(Some(value)) => {
-                values.push((function, value));
-                Outcome::Rewritten
-            }
-            Ok(None) => Outcome::AsWritten,
+        let outcome = match closed_form(table, function, &mut added.kernels) {
             Err(reason) => Outcome::Left(reason),
+            Ok(closed) => {
+                let integral = if sides.take(function) { integral(table, function, &closed, &mut added) } else { None };
+                match (integral, closed) {
+                    (Some(integral), _) => {
+                        values.push((function, integral.text()));
+                        Outcome::Integrated
+                    }
+                    (None, Some(closed)) => {
+                        values.push((function, closed.text()));
+                        Outcome::Rewritten
+                    }
+                    (None, None) => Outcome::AsWritten,
+                }
+            }
         };
         functions.push((function.name.value.clone(), outcome));
     }
-    let text = edit::apply(table, &values, &kernels);
+    let text = edit::apply(table, &values, &added);
     // What is written must mean something; an error here is a defect of the rules.
     Table::parse(Source::new(format!("{} (stabilised)", table.source.name), text.clone()))?;
-    Ok(Stabilised { text, functions, kernels: kernels.0.into_iter().map(|kernel| kernel.name).collect() })
+    Ok(Stabilised { text, functions, kernels: added.kernels.0.into_iter().map(|kernel| kernel.name).collect() })
 }
 
-/// The new formula of a function, if it needs one.
-fn value(table: &Table, function: &crate::table::Function, kernels: &mut Kernels) -> Result<Option<String>, String> {
+/// What the new table has besides new formulas.
+#[derive(Debug, Default)]
+struct Added {
+    kernels: Kernels,
+    /// Densities, as text.
+    densities: Vec<String>,
+}
+
+/// A formula as text.
+#[derive(Debug)]
+struct Formula {
+    lets: Vec<String>,
+    value: String,
+}
+
+impl Formula {
+    fn text(&self) -> String {
+        let parts = self.lets.iter().map(String::as_str).chain([self.value.as_str()]);
+        parts.collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Which functions subtract one side from another.
+struct Sides<'t> {
+    table: &'t Table,
+    subtract: BTreeSet<&'t str>,
+}
+
+impl<'t> Sides<'t> {
+    fn of(table: &'t Table) -> Self {
+        let subtracts = |f: &&Function| density(table, f, &mut Kernels::default()).is_some();
+        Self { table, subtract: table.functions.iter().filter(subtracts).map(|f| f.name.value.as_str()).collect() }
+    }
+
+    /// Whether a function is the innermost one that does: what calls it gains from it.
+    fn take(&self, function: &Function) -> bool {
+        self.subtract.contains(function.name.value.as_str()) && !self.inside(function)
+    }
+
+    fn inside(&self, function: &Function) -> bool {
+        let called = |name: &str| self.table.functions.iter().find(|f| f.name.value == name);
+        integrand::callees(self.table, function)
+            .into_iter()
+            .any(|name| self.subtract.contains(name) || called(name).is_some_and(|callee| self.inside(callee)))
+    }
+}
+
+/// What a function integrates, if that is one side less another.
+fn density(table: &Table, function: &Function, kernels: &mut Kernels) -> Option<(Density, Names, Bounds)> {
+    let names = Names {
+        variable: free(table, &["x", "at", "along"]),
+        sum: free(table, &["sigma", "half_sum", "sum_of_sides"]),
+        difference: free(table, &["delta", "half_difference", "difference_of_sides"]),
+    };
+    let mut reader = Reader::new(table);
+    let (f, bounds) = integrand::integrand(&mut reader, function, &names.variable).ok()?;
+    let density = sides::density(&f, &names, kernels)?;
+    Some((density, names, reader.bounds.swap_remove(bounds)))
+}
+
+/// The first of these names that the table does not use; the last one at worst.
+fn free(table: &Table, names: &[&str]) -> String {
+    let known = |name: &str| {
+        table.inputs.iter().any(|i| i.name.value == name)
+            || table.names.iter().any(|n| n.name.value == name)
+            || table.constants.iter().any(|c| c.name.value == name)
+            || table.helpers.iter().any(|h| h.name.value == name)
+            || table.functions.iter().any(|f| f.name.value == name)
+    };
+    let found = names.iter().find(|name| !known(name)).or(names.last());
+    found.map_or_else(String::new, |name| (*name).to_owned())
+}
+
+/// A function as an integral of a product, by `closed` or as it is written where no rule is good enough.
+fn integral(table: &Table, function: &Function, closed: &Option<Formula>, added: &mut Added) -> Option<Formula> {
+    let (density, names, bounds) = density(table, function, &mut added.kernels)?;
+    let FunctionBody::Value(written) = &function.body else { return None };
+    let name = &function.name.value;
+    let helper = free(table, &[&format!("{name}_density"), &format!("{name}_of_sides"), &format!("{name}_integrand")]);
+    let (turn, node) = (free(table, &["turn", "turns", "turned"]), free(table, &["n", "node", "gauss_node"]));
+    let as_written = match closed {
+        Some(closed) => closed.value.clone(),
+        // A formula with names of its own keeps them.
+        None if function.bindings.is_empty() => {
+            let text = &table.source.text[written.span.start..written.span.end];
+            text.trim_matches('"').split_whitespace().collect::<Vec<_>>().join(" ")
+        }
+        None => return None,
+    };
+    added.densities.push(gauss::helper(&helper, &density, &names, "        "));
+    let (turns, value) = gauss::integral(&helper, &density, &names, &bounds, &as_written, (&turn, &node));
+    let mut lets = bounds.text()?;
+    let others = closed.iter().flat_map(|closed| &closed.lets).filter(|l| !lets.contains(l));
+    let others: Vec<String> = others.cloned().collect();
+    lets.extend(others);
+    lets.push(turns);
+    Some(Formula { lets, value })
+}
+
+impl Bounds {
+    /// Mean and half difference, by their names.
+    fn text(&self) -> Option<Vec<String>> {
+        let half = Poly::number(Rational::new(1, 2));
+        let (mean, reach) = (self.lo.plus(&self.hi)?.times(&half)?, self.hi.minus(&self.lo)?.times(&half)?);
+        let printer = Printer { group_by: &[self.mid.clone(), self.half.clone()] };
+        let text = |(name, value): (&String, Poly)| format!("let {name} = {};", printer.sum(&value));
+        Some([(&self.mid, mean), (&self.half, reach)].map(text).to_vec())
+    }
+}
+
+/// The new formula of a function in closed form, if it needs one.
+fn closed_form(table: &Table, function: &Function, kernels: &mut Kernels) -> Result<Option<Formula>, String> {
     if !read::is_singular(table, function) {
         return Ok(None);
     }
@@ -115,23 +244,17 @@ fn value(table: &Table, function: &crate::table::Function, kernels: &mut Kernels
     if functions_of(&sum).iter().any(|(name, _)| name == "sinc") {
         kernels.sinc();
     }
-    let used = |name: &str| sum.mentions(name);
     let mut all: Vec<String> = Vec::new();
     for bounds in &reader.bounds {
-        let half = Poly::number(Rational::new(1, 2));
-        let mean = bounds.lo.plus(&bounds.hi).and_then(|s| s.times(&half)).ok_or_else(too_large)?;
-        let reach = bounds.hi.minus(&bounds.lo).and_then(|s| s.times(&half)).ok_or_else(too_large)?;
-        for (name, value) in [(&bounds.mid, mean), (&bounds.half, reach)] {
-            if used(name) || lets.iter().any(|l| l.contains(name.as_str())) {
-                all.push(format!("let {name} = {};", printer.sum(&value)));
-            }
-        }
+        let names = [&bounds.mid, &bounds.half];
+        let used = |name: &str| sum.mentions(name) || lets.iter().any(|l| l.contains(name));
+        let texts = bounds.text().ok_or_else(too_large)?;
+        all.extend(names.into_iter().zip(texts).filter(|(name, _)| used(name)).map(|(_, text)| text));
     }
     all.extend(lets);
-    all.push(printer.sum(&sum));
     match sum.0.keys().any(|mono| mono.iter().any(|(atom, power)| divides(atom, *power))) {
         true => Err("a division is left that no rule removes".to_owned()),
-        false => Ok(Some(all.join(" "))),
+        false => Ok(Some(Formula { lets: all, value: printer.sum(&sum) })),
     }
 }
 

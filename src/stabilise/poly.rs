@@ -212,6 +212,18 @@ impl Poly {
         })
     }
 
+    /// Adds the variables that occur anywhere, each once.
+    pub(super) fn variables(&self, all: &mut Vec<String>) {
+        for atom in self.0.keys().flat_map(Mono::keys) {
+            match atom {
+                Atom::Var(name) if !all.contains(name) => all.push(name.clone()),
+                Atom::Var(_) => {}
+                Atom::Fun(_, arguments) => arguments.iter().for_each(|a| a.variables(all)),
+                Atom::Over(sum) => sum.variables(all),
+            }
+        }
+    }
+
     /// Whether a variable occurs anywhere.
     pub(super) fn mentions(&self, name: &str) -> bool {
         self.0.keys().any(|mono| mono.keys().any(|atom| atom.mentions(name)))

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::between::between;
-use super::poly::{Atom, Poly};
+use super::poly::{Atom, Mono, Poly};
 use crate::program::normal::rational;
 use crate::table::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::table::{ConstantValue, Function, FunctionBody, Table};
@@ -28,13 +28,15 @@ pub(super) struct Bounds {
 
 /// Reads values of one table; errors say what cannot be rewritten.
 pub(super) struct Reader<'t> {
-    table: &'t Table,
+    pub(super) table: &'t Table,
     /// The bounds met so far.
     pub(super) bounds: Vec<Bounds>,
     depth: usize,
+    /// Whether differences between bounds are read as integrals; see [`super::integrand`].
+    pub(super) integrands: bool,
 }
 
-type Result<T> = std::result::Result<T, String>;
+pub(super) type Result<T> = std::result::Result<T, String>;
 
 /// The sum became too large, or is divided by zero at every point.
 fn too_large() -> String {
@@ -43,7 +45,7 @@ fn too_large() -> String {
 
 impl<'t> Reader<'t> {
     pub(super) fn new(table: &'t Table) -> Self {
-        Self { table, bounds: Vec::new(), depth: 0 }
+        Self { table, bounds: Vec::new(), depth: 0, integrands: false }
     }
 
     /// The value of a function in terms of its parameters.
@@ -52,7 +54,7 @@ impl<'t> Reader<'t> {
         self.body(function, env)
     }
 
-    fn body(&mut self, function: &Function, mut env: Env) -> Result<Poly> {
+    pub(super) fn body(&mut self, function: &Function, mut env: Env) -> Result<Poly> {
         let FunctionBody::Value(value) = &function.body else {
             return Err(format!("`{}` has cases", function.name.value));
         };
@@ -63,7 +65,7 @@ impl<'t> Reader<'t> {
         self.expr(value, &env)
     }
 
-    fn expr(&mut self, expr: &Expr, env: &Env) -> Result<Poly> {
+    pub(super) fn expr(&mut self, expr: &Expr, env: &Env) -> Result<Poly> {
         if self.depth == MAX_DEPTH {
             return Err("calls are nested too deep".to_owned());
         }
@@ -110,6 +112,9 @@ impl<'t> Reader<'t> {
             }
             ExprKind::Between(body, variable, lo, hi) => {
                 let (lo, hi) = (self.expr(lo, env)?, self.expr(hi, env)?);
+                if self.integrands {
+                    return self.integral(body, &variable.value, lo, hi, env);
+                }
                 let mut inner = env.clone();
                 // A name that no table can use, so that it stays apart from what the bounds mention.
                 let free = format!("{}'{}", variable.value, self.depth);
@@ -156,7 +161,9 @@ impl<'t> Reader<'t> {
         }
         let table = self.table;
         if let Some(named) = table.names.iter().find(|named| named.name.value == name) {
-            return self.expr(&named.value, env);
+            let value = self.expr(&named.value, env)?;
+            let plain = |sum: &Poly| sum.0.keys().flat_map(Mono::keys).all(|atom| matches!(atom, Atom::Var(_)));
+            return Ok(if self.integrands && !plain(&value) { Poly::var(name) } else { value });
         }
         match table.constants.iter().find(|constant| constant.name.value == name).map(|c| &c.value) {
             Some(ConstantValue::Number(value)) => self.expr(value, env),
@@ -167,8 +174,15 @@ impl<'t> Reader<'t> {
 
     /// The names of mean and half difference of two bounds.
     fn bounds(&mut self, lo: Poly, hi: Poly) -> (String, String) {
-        if let Some(known) = self.bounds.iter().find(|known| known.lo == lo && known.hi == hi) {
-            return (known.mid.clone(), known.half.clone());
+        let number = self.bounds_number(lo, hi);
+        let Bounds { mid, half, .. } = &self.bounds[number];
+        (mid.clone(), half.clone())
+    }
+
+    /// The place of a pair of bounds among those met so far.
+    pub(super) fn bounds_number(&mut self, lo: Poly, hi: Poly) -> usize {
+        if let Some(known) = self.bounds.iter().position(|known| known.lo == lo && known.hi == hi) {
+            return known;
         }
         let taken = |name: &str| {
             self.table.inputs.iter().any(|i| i.name.value == name)
@@ -178,8 +192,8 @@ impl<'t> Reader<'t> {
         };
         let free = |names: [&str; 4]| names.into_iter().find(|name| !taken(name)).unwrap_or("between").to_owned();
         let (mid, half) = (free(["m", "mid", "mean", "centre"]), free(["h", "half", "halved", "reach"]));
-        self.bounds.push(Bounds { lo, hi, mid: mid.clone(), half: half.clone() });
-        (mid, half)
+        self.bounds.push(Bounds { lo, hi, mid, half });
+        self.bounds.len() - 1
     }
 
     fn call(&mut self, name: &str, arguments: &[Expr], env: &Env) -> Result<Poly> {
@@ -226,6 +240,9 @@ impl<'t> Reader<'t> {
                 None => self.name(parameter, env)?,
             };
             inner.insert(parameter.clone(), value);
+        }
+        if self.integrands {
+            return self.integral_of(function, inner);
         }
         self.body(function, inner)
     }

@@ -85,6 +85,59 @@ fn differences_of_antiderivatives_become_products() {
     }
 }
 
+/// A strip between a line and a constant side, in sines and with what is left of the angles themselves.
+const SIDES: &str = r#"Table(
+    language: 1,
+    name: "strip_printed",
+    exhibit: "as printed",
+    inputs: {
+        "phi0": Range(from: 0, to: 1.5),
+        "phi1": Range(from: 0, to: 3),
+        "theta0": Range(from: 0, to: 3.1),
+        "k": Range(from: -4, to: 4),
+        "b": Range(from: -4, to: 4),
+        "p": Range(from: -4, to: 4),
+        "s": Range(from: -12, to: 12),
+        "t": Range(from: -8, to: 8),
+    },
+    functions: {
+        "c0": Function(parameters: ["phi0", "phi1"], value: "phi | phi = phi0 .. phi1"),
+        "c1": Function(parameters: ["phi0", "phi1", "p"], value: "-cos(phi + p) | phi = phi0 .. phi1"),
+        "c2": Function(parameters: ["phi0", "phi1", "s", "t"], value: "sin(s * phi + t) / s | phi = phi0 .. phi1"),
+        "c3": Function(parameters: ["phi0", "phi1", "p"],
+            value: "sin(phi + p) - phi * cos(phi + p) | phi = phi0 .. phi1"),
+        "c4": Function(parameters: ["phi0", "phi1", "p", "s", "t"],
+            value: "0.5 * (sin((1 - s) * phi + p - t) / (1 - s) - sin((1 + s) * phi + p + t) / (1 + s)) | phi = phi0 .. phi1"),
+        "area": Function(parameters: ["phi0", "phi1", "theta0", "k", "b"],
+            error: (times: 4, scale: "abs(phi1 - phi0) * abs(0.5 * k * (phi0 + phi1) + b - theta0) + abs(k) * abs(phi1 - phi0) * abs(phi1 - phi0)"),
+            value: "cos(theta0) * c0() - c2(s = k, t = b)"),
+        "sector": Function(parameters: ["phi0", "phi1", "theta0", "k", "b", "p"],
+            error: (times: 4, scale: "abs(phi1 - phi0) * abs(0.5 * k * (phi0 + phi1) + b - theta0) + abs(k) * abs(phi1 - phi0) * abs(phi1 - phi0)"),
+            value: "(2 * k * c3() - c4(s = 2 * k, t = 2 * b) + (2 * b - 2 * theta0 + sin(2 * theta0)) * c1()) / 4"),
+        "both": Function(parameters: ["phi0", "phi1", "theta0", "k", "b", "p"], value: "area() + sector()"),
+        "same": Function(parameters: ["phi0", "phi1", "k", "b"], value: "c2(s = k, t = b) + c0()"),
+    },
+)
+"#;
+
+#[test]
+fn differences_of_sides_become_products() {
+    let (table, stabilised) = run(SIDES);
+    insta::assert_snapshot!("sides", stabilised.text);
+    let outcome = |name: &str| stabilised.functions.iter().find(|(n, _)| n == name).map(|(_, o)| o.clone());
+    assert_eq!(outcome("area"), Some(Outcome::Integrated));
+    assert_eq!(outcome("sector"), Some(Outcome::Integrated));
+    // It gains from both, and nothing vanishes in the last one.
+    assert_eq!(outcome("both"), Some(Outcome::AsWritten));
+    assert_eq!(outcome("same"), Some(Outcome::AsWritten));
+    for certificate in stabilised.certify(&table).unwrap_or_else(|e| panic!("{e}")) {
+        if matches!(certificate.name.as_str(), "area" | "sector") {
+            assert!(certificate.is_met(), "{certificate:?}");
+            assert!(certificate.before.units > 1e3, "{certificate:?}");
+        }
+    }
+}
+
 #[test]
 fn quotients_of_one_quantity_become_kernels() {
     let (table, stabilised) = run(GAUSSIAN);

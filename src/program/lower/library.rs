@@ -119,7 +119,8 @@ fn one(table: &Table, function: &table::Function, errors: &mut Vec<Diagnostic>) 
         }
     }
     lowering.declare(&inputs, errors);
-    lowering.portable = function.accuracy.is_some();
+    // An exhibit states its accuracy for those who mend it; its sines are what they are.
+    lowering.portable = function.accuracy.is_some() && table.exhibit.is_none();
     let states = keep(StateSpace::new(&lowering.inputs).map_err(|product| lowering.too_many_states(product)), errors)?;
     keep(lowering.function(function, states), errors)
 }
