@@ -88,6 +88,15 @@ impl Batch {
 const STACK: usize = 256 << 20;
 
 /// Reads, checks, proves, emits and validates the tables of a request.
+///
+/// ```
+/// use umbrage::build::{self, Request};
+///
+/// let batch = build::run(&Request { paths: vec!["tables/smsr.ron".into()], ..Request::default() });
+/// assert!(!batch.failed());
+/// assert!(batch.files().iter().any(|file| file.path.ends_with("smsr/ladder.wgsl")));
+/// assert!(batch.inputs.iter().any(|path| path.ends_with("tables/smsr.ron")));
+/// ```
 pub fn run(request: &Request) -> Batch {
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || collect(request));

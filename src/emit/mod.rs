@@ -152,6 +152,18 @@ impl Target {
 /// modules of WESL and naga_oil from plain WGSL. GLSL of a table whose output
 /// is a list is not read by naga either.
 ///
+/// ```
+/// use umbrage::emit::{self, Target};
+/// use umbrage::plan::{Plan, Shape};
+/// use umbrage::program::Program;
+///
+/// let program = Program::read("tables/smsr.ron")?;
+/// let proved = Plan::proved(&program, Shape::Ordered)?;
+/// let module = String::from_utf8_lossy(&emit::emit(&proved, Target::NagaOil)?).into_owned();
+/// assert!(module.starts_with("#define_import_path umbrage::smsr\n"));
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
+///
 /// # Errors
 /// When validation fails, which would be a bug of the printer.
 pub fn emit(proved: &Proved<'_>, target: Target) -> Result<Vec<u8>, Failure> {

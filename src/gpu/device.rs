@@ -180,6 +180,7 @@ impl Gpu {
     ///
     /// # Errors
     /// When the device fails.
+    #[cfg(feature = "render")]
     pub(crate) fn read_texture(&self, source: &wgpu::Texture, texel: u32) -> Result<(Vec<u8>, usize), Failure> {
         let pitch = (source.width() * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let back = self.mappable(u64::from(pitch) * u64::from(source.height()));

@@ -82,6 +82,7 @@ impl<'a> Marks<'a> {
     }
 
     /// For the first and the last of several compute passes that are measured together.
+    #[cfg(feature = "render")]
     pub(crate) fn span(&self) -> [Option<wgpu::ComputePassTimestampWrites<'a>>; 2] {
         [(Some(0), None), (None, Some(1))].map(|(start, end)| {
             self.set.map(|query_set| wgpu::ComputePassTimestampWrites {
@@ -93,6 +94,7 @@ impl<'a> Marks<'a> {
     }
 
     /// For a render pass.
+    #[cfg(feature = "render")]
     pub(crate) fn render(&self) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
         self.set.map(|query_set| wgpu::RenderPassTimestampWrites {
             query_set,

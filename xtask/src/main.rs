@@ -1,6 +1,8 @@
 //! `cargo xtask`: the chores of this repository. Standard library only, so
 //! that it compiles in a second.
 
+mod licences;
+
 use std::env;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -13,6 +15,9 @@ Usage: cargo xtask <task> [arguments]
   test [--no-gpu-setup] [ARGS]   set up what the tests need, then run all of them;
                                  ARGS go to the main `cargo test`
   ci [ARGS]                      formatting, lints and documentation, then test
+  features                       check that each feature compiles alone
+  licences                       check the licences of all packages against deny.toml
+  package                        build what would be published, from what would be in it
   bless                          rewrite generated/ and the snapshots from what the code does now
   bench [ARGS]                   run the benchmarks; ARGS go to `cargo bench`
 ";
@@ -27,6 +32,9 @@ fn main() -> ExitCode {
     let result = match task {
         "test" => test(&mut steps, rest),
         "ci" => lint(&mut steps).and_then(|()| test(&mut steps, rest)),
+        "features" => features(&mut steps),
+        "licences" => licences::check(include_str!("../../deny.toml")),
+        "package" => package(&mut steps),
         "bless" => bless(&mut steps),
         "bench" => bench(&mut steps, rest),
         "help" | "--help" | "-h" => {
@@ -57,12 +65,16 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
     if set_up {
         vulkan_driver(steps)?;
     }
-    let glslang = glslang(steps, set_up);
+    let glslang = tool(steps, set_up, "glslangValidator", "glslang-tools", "GLSL and HLSL");
+    let spirv_val = tool(steps, set_up, "spirv-val", "spirv-tools", "SPIR-V");
     let tests = |arguments: &[&str]| {
         let mut command = cargo(arguments);
         command.env("UMBRAGE_REQUIRE_ADAPTER", "1");
         if glslang {
             command.env("UMBRAGE_REQUIRE_GLSLANG", "1");
+        }
+        if spirv_val {
+            command.env("UMBRAGE_REQUIRE_SPIRV_VAL", "1");
         }
         command
     };
@@ -73,8 +85,26 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
     let mut all = tests(&["test", "--workspace"]);
     all.args(arguments);
     steps.run("tests", all)?;
-    // The compiler alone. Only checked, not built: no second wgpu, no second set of tests.
-    steps.run("compiler alone", cargo(&["check", "--package", "umbrage", "--no-default-features"]))
+    licences::check(include_str!("../../deny.toml"))?;
+    features(steps)
+}
+
+/// The compiler alone, and each feature alone. Only checked, not built: no second wgpu, no second set of tests.
+fn features(steps: &mut Steps) -> Result {
+    for feature in ["", "precise", "cli", "gpu", "render", "report"] {
+        let set = ["clippy", "--package", "umbrage", "--no-default-features", "--features", feature];
+        let mut check = cargo(&set);
+        // What only another feature uses is a warning, and a mistake in a condition.
+        check.args(["--", "-D", "warnings"]);
+        let name = if feature.is_empty() { "no feature".to_owned() } else { format!("feature {feature}") };
+        steps.run(&name, check)?;
+    }
+    Ok(())
+}
+
+/// What would be published, unpacked and built as Cargo does it before publishing.
+fn package(steps: &mut Steps) -> Result {
+    steps.run("package", cargo(&["package", "--package", "umbrage", "--allow-dirty", "--no-default-features"]))
 }
 
 /// Formatting, lints and documentation.
@@ -89,6 +119,13 @@ fn lint(steps: &mut Steps) -> Result {
 /// Takes what the code does now as what it should do. Look at the difference before committing it.
 fn bless(steps: &mut Steps) -> Result {
     steps.run("generated", cargo(&["run", "--release", "--", "build"]))?;
+    for (table, plan) in [("smsr", "switch"), ("rsmss", "switch_buffer")] {
+        let from = format!("tables/{table}.ron");
+        let build = ["run", "--release", "--", "build", &from, "--plan", plan, "--target", "rust_wgpu"];
+        let mut build = cargo(&build);
+        build.args(["--output", "consumers/tests/generated"]);
+        steps.run("generated for wgpu", build)?;
+    }
     for table in ["rsmss", "smsr"] {
         let (from, to) = (format!("tables/{table}.ron"), format!("docs/images/{table}.svg"));
         steps.run("atlas", cargo(&["run", "--release", "--", "atlas", &from, "--output", &to]))?;
@@ -149,27 +186,26 @@ fn has_file_with_extension(directory: &str, extension: &str) -> bool {
     entries.flatten().any(|entry| entry.path().extension() == Some(OsStr::new(extension)))
 }
 
-/// Makes sure that glslang is there, if that is possible. The tests can do without.
-fn glslang(steps: &mut Steps, set_up: bool) -> bool {
-    let found = || runs(Command::new("glslangValidator").arg("--version"));
+/// Makes sure that a validator is there, if that is possible. The tests can do without.
+fn tool(steps: &mut Steps, set_up: bool, name: &str, package: &str, language: &str) -> bool {
+    let found = || runs(Command::new(name).arg("--version"));
     if found() {
         return true;
     }
     if set_up {
-        println!("glslangValidator not found: installing it.");
-        if apt_install(steps, &["glslang-tools"]) && found() {
+        println!("{name} not found: installing it.");
+        if apt_install(steps, &[package]) && found() {
             return true;
         }
     }
     let line = "*".repeat(78);
     eprintln!(
         "{line}\n\
-         warning: glslangValidator is missing, so generated GLSL is NOT validated by it.\n\
-         The tests that would do so are skipped. It is Debian's package `glslang-tools`,\n\
-         elsewhere `glslang`.\n\
+         warning: {name} is missing, so generated {language} is NOT validated by it.\n\
+         The tests that would do so are skipped. It is in Debian's package `{package}`.\n\
          {line}"
     );
-    steps.note("glslang is missing: its validation of GLSL was skipped");
+    steps.note(format!("{name} is missing: its validation of {language} was skipped"));
     false
 }
 
@@ -217,7 +253,7 @@ fn runs(command: &mut Command) -> bool {
 #[derive(Default)]
 struct Steps {
     done: Vec<(String, Duration, bool)>,
-    notes: Vec<&'static str>,
+    notes: Vec<String>,
 }
 
 impl Steps {
@@ -238,7 +274,7 @@ impl Steps {
         result
     }
 
-    fn note(&mut self, note: &'static str) {
+    fn note(&mut self, note: String) {
         self.notes.push(note);
     }
 
