@@ -9,7 +9,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use codespan_reporting::diagnostic as codespan;
-use codespan_reporting::files::SimpleFile;
+use codespan_reporting::files::{self, Files};
 use codespan_reporting::term;
 
 /// A range of bytes in a [`Source`].
@@ -56,6 +56,8 @@ pub struct Source {
     pub name: String,
     /// The text.
     pub text: String,
+    /// Where each line begins; generated code names many lines.
+    lines: Vec<usize>,
 }
 
 impl Source {
@@ -66,7 +68,9 @@ impl Source {
             Some(rest) => rest.to_owned(),
             None => text,
         };
-        Arc::new(Self { name: name.into(), text })
+        let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let lines = [0].into_iter().chain(ends.map(|(end, _)| end + 1)).collect();
+        Arc::new(Self { name: name.into(), text, lines })
     }
 
     /// Line and column of a byte offset, both counted from 1, columns in characters.
@@ -75,10 +79,9 @@ impl Source {
         while !self.text.is_char_boundary(offset) {
             offset -= 1;
         }
-        let before = &self.text[..offset];
-        let line = before.matches('\n').count() + 1;
-        let start = before.rfind('\n').map_or(0, |i| i + 1);
-        (line, before[start..].chars().count() + 1)
+        let line = self.lines.partition_point(|start| *start <= offset);
+        let start = self.lines[line - 1];
+        (line, self.text[start..offset].chars().count() + 1)
     }
 
     /// The line a byte offset is on, counted from 1.
@@ -228,6 +231,8 @@ pub mod codes {
     pub const BAD_VALUE: Code = Code("U0702");
     pub const NEEDS_FETCH: Code = Code("U0703");
     pub const BAD_CAPTURE: Code = Code("U0704");
+    pub const FORMAT: Code = Code("U0721");
+    pub const EXISTS: Code = Code("U0722");
 
     // Devices.
     pub const NO_ADAPTER: Code = Code("U0801");
@@ -238,6 +243,33 @@ pub mod codes {
     pub const MESH: Code = Code("U0902");
     pub const RENDER: Code = Code("U0903");
     pub const FOREIGN_INPUT: Code = Code("U0904");
+}
+
+/// A source as what excerpts are taken from: its lines are known already.
+struct Excerpts<'s>(&'s Source);
+
+impl<'s> Files<'s> for Excerpts<'s> {
+    type FileId = ();
+    type Name = &'s str;
+    type Source = &'s str;
+
+    fn name(&'s self, (): ()) -> Result<&'s str, files::Error> {
+        Ok(&self.0.name)
+    }
+
+    fn source(&'s self, (): ()) -> Result<&'s str, files::Error> {
+        Ok(&self.0.text)
+    }
+
+    fn line_index(&'s self, (): (), offset: usize) -> Result<usize, files::Error> {
+        Ok(self.0.lines.partition_point(|start| *start <= offset) - 1)
+    }
+
+    fn line_range(&'s self, (): (), line: usize) -> Result<std::ops::Range<usize>, files::Error> {
+        let lines = &self.0.lines;
+        let start = lines.get(line).ok_or(files::Error::LineTooLarge { given: line, max: lines.len() - 1 })?;
+        Ok(*start..lines.get(line + 1).copied().unwrap_or(self.0.text.len()))
+    }
 }
 
 /// A place that a diagnostic speaks about.
@@ -316,7 +348,7 @@ impl Diagnostic {
             .with_message(message)
             .with_labels_iter(labels)
             .with_notes(self.notes.clone());
-        let file = SimpleFile::new(&source.name, &source.text);
+        let file = Excerpts(source);
         // A note is nothing to mend: its place is named, but no excerpt of the source shown.
         let display_style = match self.severity {
             Severity::Note => term::DisplayStyle::Medium,

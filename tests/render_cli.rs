@@ -83,6 +83,34 @@ fn quality_measures_and_judges() {
     assert!(place.read("q.svg").starts_with("<svg"));
 }
 
+/// Every technique in both kinds of passes, with what it is compared with.
+#[test]
+#[cfg(feature = "gpu")]
+fn passes_are_measured() {
+    let place = Place::new();
+    let small = "bench --scene text --size 48x27 --shadow-map 64 --rounds 2 --warm-up 0";
+    let said = place.run(&format!("{small} --message-format json"));
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let object: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!((&object["scene"], &object["width"], &object["shadow_map"]), (&"text".into(), &48.into(), &64.into()));
+    let passes = object["passes"].as_array().unwrap();
+    for technique in ["hard", "pcf", "smsr", "rsmss", "rsmss_one_pass", "casefree", "rsmss_2015"] {
+        let mut of = passes.iter().filter(|pass| pass["technique"] == technique);
+        assert!(of.all(|pass| pass["ms"].as_f64().unwrap() > 0.0 && pass["vs_hard"].as_f64().unwrap() > 0.0));
+        assert_eq!(passes.iter().filter(|pass| pass["technique"] == technique).count(), 2, "{technique}");
+    }
+    for (bad, expected) in [
+        ("--rounds 0", "invalid value '0' for '--rounds <COUNT>'"),
+        ("--plan bush", "invalid value 'bush' for '--plan <PLAN>'"),
+        ("--scene fense", "fense"),
+        ("--adapter none-of-these", "error[U0801]: "),
+    ] {
+        let said = place.run(&format!("bench --size 48x27 --shadow-map 64 {bad}"));
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{bad}: {}", said.err);
+        assert!(said.err.contains(expected), "{bad}: {}", said.err);
+    }
+}
+
 /// Runs with a scene and a mesh of one's own and shows what was said.
 fn fails(scene: &str, mesh: Option<&[u8]>, arguments: &str) -> String {
     let place = Place::new();

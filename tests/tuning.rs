@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod support;
+#[path = "../benches/synthetic.rs"]
+mod synthetic;
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -100,6 +102,16 @@ fn what_is_wrong_with_a_profile_is_said() {
     refused(&place, "tune smsr.ron --profile zero.ron", "error[U0613]: zero.ron: counts nothing");
     refused(&place, "profile show zero.ron", "error[U0613]: zero.ron: counts nothing");
 
+    let text = place.read("fence.ron");
+    place.file("cut.ron", &text[..text.len() / 2]);
+    refused(&place, "tune smsr.ron --profile cut.ron", "error[U0611]: this is not a profile: ");
+    refused(&place, "diff smsr.ron --profile cut.ron", "error[U0611]: this is not a profile: ");
+    place.file("huge.ron", text.replace(", 2),", ", 99999999999999999999999),"));
+    refused(&place, "tune smsr.ron --profile huge.ron", "error[U0611]: ");
+    place.file("wild.ron", text.replace("weight: 1", "weight: 1e400"));
+    refused(&place, "profile merge wild.ron", "error[U0611]: ");
+    let other = "error[U0612]: fence.ron: is a profile of the table `smsr`, which is not among those compared";
+    refused(&place, "diff rsmss.ron --profile fence.ron", other);
     place.file("odd.csv", format!("{HEADER}\nnone,none,-1,0,0,0,0.5,0.5,false,false\n"));
     let excluded = "error[U0615]: the assumption `I1_h` excludes a state that occurs 1 times in the scene `odd`";
     refused(&place, "profile --table smsr.ron --frames odd.csv -o odd.ron", excluded);
@@ -123,6 +135,86 @@ fn a_profile_of_a_changed_table_is_mapped_with_a_warning() {
     assert!(said.err.contains("4 of 5 counts were mapped by the number of their case, 1 (20.0 %) were lost"));
 }
 
+/// A plan that does not suit the table is left out with the reason; asked for alone, by `diff`, it is refused.
+#[test]
+fn plans_that_do_not_suit_a_table_are_left_out() {
+    let place = Place::new();
+    let table = r#"Table(language: 1, name: "t", hit_policy: First,
+        inputs: {"s": Bool(), "x": Range(from: 0, to: 1)}, output: Number(),
+        cases: [Case(id: 1, when: "s", value: "x")], default: 0)"#;
+    place.file("t.ron", table).file("t.csv", "s,x\ntrue,0.5\nfalse,0.25\n");
+    assert_eq!(place.run("profile --table t.ron --frames t.csv -o p.ron").code, Some(0));
+    let said = place.run("tune t.ron --profile p.ron --rows 256 --rounds 2 --plan orbit");
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert!(said.out.contains("left out: orbit: it declares no symmetries"), "{}", said.out);
+    assert!(said.out.contains("chosen: ladder"), "{}", said.out);
+    let said = place.run("diff t.ron --plan orbit");
+    assert_eq!((said.code, said.err.contains("error[U0602]: ")), (Some(2), true), "{}", said.err);
+    // Nothing renders this table.
+    let said = place.run("tune t.ron --profile p.ron --whole");
+    assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+    assert!(said.err.contains("no shadow pass evaluates the table `t`"), "{}", said.err);
+}
+
+/// What is too large for a plan is said; the others are made.
+#[test]
+fn plans_that_a_table_is_too_large_for_are_named() {
+    let place = Place::new();
+    place.file("large.ron", synthetic::table(1400));
+    // Some of its broad cases are never taken, which is a warning.
+    let said = place.run("check large.ron");
+    assert_eq!(said.code, Some(1), "{}", said.out);
+    let said = place.run("build large.ron --plan ladder,switch,orbit --target wgsl");
+    assert_eq!(said.code, Some(1), "{}", said.err);
+    let line = |name: &str| said.out.lines().find(|line| line.trim_start().starts_with(name)).unwrap_or_default();
+    assert!(line("ladder").contains("proved equal to the table on 32768 states"), "{}", said.out);
+    let reason = "left out: its key has 15 bits, and the lookup of this plan has room for 12; use `switch_buffer`";
+    assert!(line("switch").contains(reason), "{}", said.out);
+    assert!(line("orbit").contains("left out: it declares no symmetries"), "{}", said.out);
+    assert!(place.path("generated/synthetic_1400/ladder.wgsl").exists());
+    assert!(!place.path("generated/synthetic_1400/switch.wgsl").exists());
+}
+
+/// Plans that need weights are compared with the profile beside the tables, or the one that is given.
+#[test]
+fn plans_are_compared_as_they_are_made_for_a_profile() {
+    let place = place();
+    let rows = "--frames fence.csv --plan ordered --message-format json";
+    let origin = |said: &str| serde_json::from_str::<Json>(said).unwrap()["profile"].clone();
+    let said = place.run(&format!("diff smsr.ron {rows}"));
+    assert_eq!((said.code, origin(&said.out)), (Some(0), Json::Null), "{}", said.err);
+    let said = place.run(&format!("diff smsr.ron --profile fence.ron {rows}"));
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert_eq!(origin(&said.out), "profile fence.ron, 5 evaluations of fence");
+    for directory in ["tables", "profiles"] {
+        std::fs::create_dir(place.path(directory)).unwrap();
+    }
+    std::fs::copy(place.path("smsr.ron"), place.path("tables/smsr.ron")).unwrap();
+    std::fs::copy(place.path("fence.ron"), place.path("profiles/smsr.ron")).unwrap();
+    let said = place.run(&format!("diff tables/smsr.ron {rows}"));
+    assert_eq!(origin(&said.out), "profile smsr.ron, 5 evaluations of fence", "{}", said.err);
+}
+
+/// What a GPU counts is what the CPU counts, in every state, case and tile.
+#[test]
+fn a_gpu_counts_what_the_cpu_counts() {
+    let place = Place::new();
+    for technique in ["smsr", "rsmss"] {
+        let count = |backend: &str| {
+            let file = format!("{technique}_{backend}.ron");
+            let said = place.run(&format!(
+                "profile --scene fence,text --technique {technique} --size 96x54 --shadow-map 128 --backend {backend} \
+                 -o {file}"
+            ));
+            assert_eq!(said.all(), "exit code: 0\n");
+            place.read(&file)
+        };
+        let cpu = count("cpu");
+        assert!(cpu.contains("tiles"), "{cpu}");
+        assert_eq!(count("gpu"), cpu);
+    }
+}
+
 const TUNE: &str = "tune smsr.ron --profile fence.ron --frames fence.csv --rows 1024 --rounds 3 --plan ladder,switch";
 
 #[test]
@@ -139,11 +231,14 @@ fn tuning_ranks_plans_and_keeps_the_choice() {
         for plan in of_input {
             assert!(plan["us"].as_f64().unwrap() > 0.0 && plan["vs_floor"].as_f64().unwrap() > 0.0);
             assert!(plan["vs_ladder"].as_f64().unwrap() > 0.0 && plan["differs"].is_boolean());
+            assert!(plan["estimate"].as_f64().unwrap() > 0.0);
             names.push(plan["name"].as_str().unwrap().to_owned());
         }
         names.sort();
         assert!(names.iter().any(|name| name == "ladder") && names.iter().any(|name| name == "switch"), "{names:?}");
     }
+    assert_eq!(object["estimates"][0]["alone_vs_ladder"], 1.0);
+    assert_eq!(object["whole"], Json::from(Vec::<Json>::new()));
     let files: Vec<_> = std::fs::read_dir(place.path("tuned")).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert_eq!(files.len(), 1);
     let kept = std::fs::read_to_string(&files[0]).unwrap();
@@ -162,6 +257,22 @@ fn tuning_ranks_plans_and_keeps_the_choice() {
     assert_eq!(said.code, Some(2));
     assert!(said.err.contains("error[U0616]: this is no tuned choice"), "{}", said.err);
     assert_eq!(std::fs::read_to_string(&files[0]).unwrap(), "Tuned(");
+}
+
+#[test]
+fn plans_are_measured_in_whole_shaders() {
+    let place = place();
+    let said = place.run(&format!(
+        "{TUNE} --whole --scene text --size 64x36 --shadow-map 64 --report tuning.html --message-format json"
+    ));
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let object: Json = serde_json::from_str(&said.out).unwrap();
+    let whole = object["whole"].as_array().unwrap();
+    let passes: Vec<_> =
+        whole.iter().map(|line| (line["pass"].as_str().unwrap(), line["name"].as_str().unwrap())).collect();
+    assert_eq!(passes, [("compute", "ladder"), ("compute", "switch"), ("fragment", "ladder"), ("fragment", "switch")]);
+    assert!(whole.iter().all(|line| line["frame"] == "text, 64x36, map 64" && line["ms"].as_f64().unwrap() > 0.0));
+    assert!(place.read("tuning.html").contains("In whole shaders"));
 }
 
 #[test]

@@ -3,6 +3,8 @@
 //! A default is a legitimate part of a table, so unclaimed states are a note.
 //! A case that can never be taken is a warning: somebody wrote it for a reason.
 
+use std::collections::HashSet;
+
 use super::sets::Set;
 use super::study::Study;
 use super::words;
@@ -92,7 +94,8 @@ fn dead(study: &mut Study<'_>) -> Vec<Dead> {
 fn covering(study: &mut Study<'_>, row: usize, within: Set) -> Vec<usize> {
     let guard = study.space.sets.and(study.rows.guards[row], within);
     let mut found = Vec::new();
-    for earlier in 0..row {
+    let earlier: Vec<usize> = study.nearby.of(row).take_while(|other| *other < row).collect();
+    for earlier in earlier {
         let taken = study.rows.taken[earlier];
         if study.space.sets.meets(guard, taken) {
             let both = study.space.sets.and(guard, taken);
@@ -114,7 +117,7 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> = warned.map(|dead| never_taken(program, dead)).collect();
     for row in 0..program.rows.len() {
         let reached = study.space.can_meet(study.rows.taken[row], study.assumed);
-        if !reached && !dead.iter().any(|dead| dead.row == row) {
+        if !reached && dead.binary_search_by_key(&row, |dead| dead.row).is_err() {
             found.push(not_reached(study, row));
         }
     }
@@ -205,7 +208,8 @@ fn uncovered(study: &mut Study<'_>, unclaimed: Set) -> Diagnostic {
         true => note,
         false => note.help(format!("the assumptions admit {admitted} of them")),
     };
-    let id = (1..).find(|id| program.rows.iter().all(|row| row.id != *id)).unwrap_or_default();
+    let taken: HashSet<u32> = program.rows.iter().map(|row| row.id).collect();
+    let id = (1..).find(|id| !taken.contains(id)).unwrap_or_default();
     let when = shown.first().map_or("true", String::as_str);
     note.help(format!("to claim them: Case(id: {id}, when: \"{when}\", value: ...)"))
 }

@@ -13,6 +13,7 @@ mod examples;
 mod levels;
 mod lines;
 mod mutate;
+mod nearby;
 mod numbers;
 mod orbit;
 mod overlap;

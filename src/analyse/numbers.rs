@@ -33,7 +33,7 @@ pub fn ranges(program: &Program) -> Vec<Range> {
 }
 
 fn range(study: &mut Study<'_>, row: Option<usize>) -> Option<Range> {
-    let pieces: Vec<_> = study.pieces.iter().filter(|piece| piece.row == row).cloned().collect();
+    let pieces = study.pieces_of(row).to_vec();
     let (mut before, mut after) = (None, None);
     for piece in pieces {
         if study.space.is_void(piece.set) {
@@ -84,9 +84,9 @@ fn beyond_the_clamp(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for (row, case) in program.rows.iter().enumerate() {
         for (line, written) in case.lines.iter().enumerate() {
-            let pieces = study.pieces.iter().filter(|piece| piece.row == Some(row) && piece.line == Some(line));
-            let pieces: Vec<_> = pieces.cloned().collect();
             let Some((lo, hi)) = written.values.first().and_then(|value| clamp(study, *value)) else { continue };
+            let pieces = study.pieces_of(Some(row)).iter().filter(|piece| piece.line == Some(line));
+            let pieces: Vec<_> = pieces.cloned().collect();
             let mut sides = [true, true];
             let mut counts = false;
             for piece in pieces {

@@ -43,7 +43,7 @@ pub fn overlaps(program: &Program) -> Vec<Overlap> {
     let mut found = Vec::new();
     let mut earlier = Set::EMPTY;
     for first in 0..program.rows.len() {
-        for second in first + 1..program.rows.len() {
+        for second in study.later(first) {
             found.extend(overlap(&mut study, first, second, earlier));
         }
         let guard = study.space.states(study.rows.guards[first]);
@@ -124,27 +124,20 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let unique = program.hit_policy == HitPolicy::Unique;
     let within = if unique { Set::ALL } else { study.assumed };
-    let mut pairs: Vec<(usize, usize)> = Vec::new();
+    let mut conflicts: Vec<(usize, Vec<usize>)> = Vec::new();
     for first in 0..program.rows.len() {
-        for second in first + 1..program.rows.len() {
-            if !study.space.sets.meets(study.rows.guards[first], study.rows.guards[second]) {
-                continue;
-            }
-            if differ(study, first, second, within) {
-                pairs.push((first, second));
-            }
+        let later: Vec<usize> =
+            study.later(first).into_iter().filter(|second| differ(study, first, *second, within)).collect();
+        if !later.is_empty() {
+            conflicts.push((first, later));
         }
     }
     if unique {
-        return pairs.into_iter().filter_map(|(first, second)| contradiction(study, first, second)).collect();
+        let pairs = conflicts.iter().flat_map(|(first, later)| later.iter().map(|second| (*first, *second)));
+        return pairs.filter_map(|(first, second)| contradiction(study, first, second)).collect();
     }
-    let suggest = pairs.len() <= MAX_PAIRS;
-    let rows = 0..program.rows.len();
-    rows.filter_map(|first| {
-        let later: Vec<usize> = pairs.iter().filter(|pair| pair.0 == first).map(|pair| pair.1).collect();
-        (!later.is_empty()).then(|| order_matters(study, first, &later, suggest))
-    })
-    .collect()
+    let suggest = conflicts.iter().map(|(_, later)| later.len()).sum::<usize>() <= MAX_PAIRS;
+    conflicts.iter().map(|(first, later)| order_matters(study, *first, later, suggest)).collect()
 }
 
 fn order_matters(study: &mut Study<'_>, first: usize, later: &[usize], suggest: bool) -> Diagnostic {

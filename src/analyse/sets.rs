@@ -5,7 +5,7 @@
 //! that is simple to describe is small, whatever the product is. The digits
 //! are tested in ascending order; a digit that does not matter is not tested.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::program::LevelSet;
@@ -362,6 +362,49 @@ impl Sets {
         found
     }
 
+    /// The levels of each digit that something in the set has, for the digits of which not all occur.
+    pub(super) fn hull(&self, set: Set) -> Vec<(usize, LevelSet)> {
+        let mut hull: Vec<LevelSet> = self.levels.iter().map(|_| LevelSet(0)).collect();
+        let mut seen = HashSet::from([set]);
+        // Digits that are not tested on the way from one node to the next can have any level.
+        let mut open = vec![(0, set)];
+        while let Some((from, set)) = open.pop() {
+            let test = self.test(set);
+            let to = test.map_or(self.levels.len(), |(digit, _)| digit);
+            for digit in from..to {
+                hull[digit] = LevelSet::all(self.levels[digit]);
+            }
+            let Some((digit, children)) = test else { continue };
+            for (level, child) in children.iter().enumerate().filter(|(_, child)| !child.is_empty()) {
+                hull[digit].0 |= LevelSet::one(level as u8).0;
+                // What follows is looked at once, what lies between every time.
+                let next = self.test(*child).map_or(self.levels.len(), |(digit, _)| digit);
+                match seen.insert(*child) {
+                    true => open.push((digit + 1, *child)),
+                    false => (digit + 1..next).for_each(|digit| hull[digit] = LevelSet::all(self.levels[digit])),
+                }
+            }
+        }
+        let some = |(digit, levels): &(usize, LevelSet)| *levels != LevelSet::all(self.levels[*digit]);
+        hull.into_iter().enumerate().filter(some).collect()
+    }
+
+    /// The set as some levels of each of some digits, if it is nothing else.
+    pub(super) fn as_pattern(&self, set: Set) -> Option<Vec<(usize, LevelSet)>> {
+        let mut pattern = Vec::new();
+        let mut rest = set;
+        while let Some((digit, children)) = self.test(rest) {
+            let mut ways = children.iter().filter(|child| !child.is_empty());
+            rest = *ways.next()?;
+            if ways.any(|child| *child != rest) {
+                return None;
+            }
+            let open = children.iter().enumerate().filter(|(_, child)| !child.is_empty());
+            pattern.push((digit, LevelSet(open.fold(0, |all, (level, _)| all | LevelSet::one(level as u8).0))));
+        }
+        (!rest.is_empty()).then_some(pattern)
+    }
+
     /// Where each of some digits has one of some levels.
     pub(super) fn pattern(&mut self, pattern: &[(usize, LevelSet)]) -> Set {
         let mut set = Set::ALL;
@@ -407,6 +450,20 @@ mod tests {
         assert_eq!(left, sets.or(ab, ac));
         let twice = sets.not(left);
         assert_eq!(sets.not(twice), left);
+    }
+
+    #[test]
+    fn hulls_are_as_narrow_as_they_can_be() {
+        let (mut sets, [a, b, c]) = three();
+        let (ab, bc) = (sets.and(a, b), sets.and(b, c));
+        let either = sets.or(ab, bc);
+        assert_eq!(sets.hull(either), [(1, LevelSet(0b10))]);
+        assert_eq!(sets.hull(ab), [(0, LevelSet(0b011)), (1, LevelSet(0b10))]);
+        assert_eq!(sets.hull(Set::ALL), []);
+        assert_eq!(sets.as_pattern(ab), Some(sets.hull(ab)));
+        assert_eq!((sets.as_pattern(either), sets.as_pattern(Set::EMPTY)), (None, None));
+        let second = sets.minus(either, a);
+        assert_eq!(sets.hull(second), [(0, LevelSet(0b100)), (1, LevelSet(0b10)), (2, LevelSet(0b0110))]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! What all analyses of a program start from: its rows as sets.
 
+use super::nearby::Nearby;
 use super::sets::Set;
 use super::space::{Space, View};
 use crate::program::{ExprId, Program};
@@ -93,7 +94,9 @@ pub(super) struct Study<'p> {
     pub(super) program: &'p Program,
     pub(super) space: Space<'p>,
     pub(super) rows: Rows,
-    /// What the program gives, piece by piece.
+    /// Which guards may hold together.
+    pub(super) nearby: Nearby,
+    /// What the program gives, piece by piece, in the order of rows, the default last.
     pub(super) pieces: Vec<Piece>,
     /// Where all assumptions hold.
     pub(super) assumed: Set,
@@ -103,9 +106,25 @@ impl<'p> Study<'p> {
     pub(super) fn new(program: &'p Program) -> Self {
         let mut space = Space::new(program);
         let rows = Rows::new(&mut space, View::PLAIN);
+        let nearby = Nearby::new(&space.sets, &rows.guards);
         let pieces = rows.pieces(&mut space, View::PLAIN);
         let assumed = assumed(&mut space, View::PLAIN);
-        Self { program, space, rows, pieces, assumed }
+        Self { program, space, rows, nearby, pieces, assumed }
+    }
+
+    /// What a row gives where it is taken; `None` is the default.
+    pub(super) fn pieces_of(&self, row: Option<usize>) -> &[Piece] {
+        let place = |row: Option<usize>| row.unwrap_or(usize::MAX);
+        let start = self.pieces.partition_point(|piece| place(piece.row) < place(row));
+        let count = self.pieces[start..].partition_point(|piece| piece.row == row);
+        &self.pieces[start..start + count]
+    }
+
+    /// The later rows whose guards meet that of a row.
+    pub(super) fn later(&self, row: usize) -> Vec<usize> {
+        let guards = &self.rows.guards;
+        let meets = |later: &usize| *later > row && self.space.sets.meets(guards[row], guards[*later]);
+        self.nearby.of(row).filter(meets).collect()
     }
 
     /// The pieces of the program and its assumptions, seen through a view.

@@ -7,8 +7,6 @@ use super::study::Study;
 use super::words;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{CondId, ExprId, LevelKind, LevelSet, Program};
-use crate::table::expr::{Expr, ExprKind};
-use crate::table::{CaseBody, Table};
 
 /// Everything about style.
 pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
@@ -27,71 +25,50 @@ type Lines = Vec<(CondId, Vec<ExprId>)>;
 fn mergeable(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut found = Vec::new();
-    let mut by_value: HashMap<Lines, Vec<(usize, Pattern)>> = HashMap::new();
+    let mut values: HashMap<Lines, usize> = HashMap::new();
+    // By value, digit, and all of the pattern but that digit: the cases so far, with their levels of it.
+    let mut alike: HashMap<(usize, usize, Pattern), Vec<(usize, LevelSet)>> = HashMap::new();
     for (number, row) in program.rows.iter().enumerate() {
         let guard = study.rows.guards[number];
-        let patterns = study.space.sets.patterns(guard, 2);
-        let [pattern] = patterns.as_slice() else { continue };
+        let Some(pattern) = study.space.sets.as_pattern(guard) else { continue };
         let lines: Vec<_> = row.lines.iter().map(|line| (line.condition, line.values.clone())).collect();
-        let earlier = by_value.entry(lines).or_default();
-        for (first, other) in earlier.iter() {
-            let Some(merged) = merged(study, other, pattern) else { continue };
-            if (first + 1..number).any(|between| study.space.sets.meets(study.rows.guards[between], guard)) {
-                continue;
-            }
-            let condition = words::condition(&mut study.space, &merged);
-            let (a, b) = (&program.rows[*first], row);
-            found.push(
-                Diagnostic::note(codes::MERGEABLE, format!("cases {} and {} could be one", a.id, b.id))
-                    .at(b.guard_span, "")
-                    .at(a.guard_span, "")
-                    .help(format!("they give the same, and together their guards say `{condition}`")),
-            );
-            break;
+        let count = values.len();
+        let value = *values.entry(lines).or_insert(count);
+        let mut earlier = Vec::new();
+        for (place, (digit, levels)) in pattern.iter().copied().enumerate() {
+            let mut rest = pattern.clone();
+            rest.remove(place);
+            let alike = alike.entry((value, digit, rest)).or_default();
+            let others = alike.iter().filter(|(_, other)| *other != levels);
+            earlier.extend(others.map(|(first, other)| (*first, place, LevelSet(levels.0 | other.0))));
+            alike.push((number, levels));
         }
-        earlier.push((number, pattern.clone()));
+        earlier.sort_unstable_by_key(|(first, ..)| *first);
+        let free = |(first, ..): &&(usize, usize, LevelSet)| {
+            let mut between = study.nearby.of(number).filter(|row| (first + 1..number).contains(row));
+            !between.any(|row| study.space.sets.meets(study.rows.guards[row], guard))
+        };
+        let Some((first, place, levels)) = earlier.iter().find(free).copied() else { continue };
+        let mut merged = pattern;
+        merged[place].1 = levels;
+        merged.retain(|(digit, levels)| *levels != LevelSet::all(study.space.sets.levels(*digit)));
+        let condition = words::condition(&mut study.space, &merged);
+        let (a, b) = (&program.rows[first], row);
+        found.push(
+            Diagnostic::note(codes::MERGEABLE, format!("cases {} and {} could be one", a.id, b.id))
+                .at(b.guard_span, "")
+                .at(a.guard_span, "")
+                .help(format!("they give the same, and together their guards say `{condition}`")),
+        );
     }
     found
 }
 
-/// The one pattern that two are together, if they differ in a single digit.
-fn merged(study: &Study<'_>, a: &Pattern, b: &Pattern) -> Option<Pattern> {
-    let levels = |pattern: &Pattern, digit| pattern.iter().find(|(own, _)| *own == digit).map(|(_, levels)| *levels);
-    let mut digits: Vec<usize> = a.iter().chain(b).map(|(digit, _)| *digit).collect();
-    digits.sort_unstable();
-    digits.dedup();
-    let mut different = digits.iter().copied().filter(|digit| levels(a, *digit) != levels(b, *digit));
-    let (one, None) = (different.next()?, different.next()) else { return None };
-    let both = LevelSet(levels(a, one)?.0 | levels(b, one)?.0);
-    let everything = both == LevelSet::all(study.space.sets.levels(one));
-    let mut pattern: Pattern = a.iter().copied().filter(|(digit, _)| *digit != one).collect();
-    if !everything {
-        pattern.push((one, both));
-        pattern.sort_unstable_by_key(|(digit, _)| *digit);
-    }
-    Some(pattern)
-}
-
 /// Constants as written that no `f32` equals: one note for all of them.
 fn inexact(program: &Program) -> Option<Diagnostic> {
-    // Constants have no places in a program, but its source is that of a well-formed table.
-    let table = Table::parse(program.source.clone()).ok()?;
-    let mut numbers: Vec<(f64, Span)> = Vec::new();
-    for case in &table.cases {
-        if let CaseBody::Rows { when, lines } = &case.body {
-            constants(when, &mut numbers);
-            for line in lines {
-                constants(&line.value, &mut numbers);
-                line.condition.iter().for_each(|condition| constants(condition, &mut numbers));
-            }
-        }
-    }
-    table.names.iter().for_each(|named| constants(&named.value, &mut numbers));
-    constants(&table.default, &mut numbers);
-    numbers.retain(|(number, _)| f64::from(*number as f32) != *number);
     let mut seen: BTreeMap<u64, (f64, Span)> = BTreeMap::new();
-    for (number, span) in numbers {
-        seen.entry(number.to_bits()).or_insert((number, span));
+    for (number, span) in &program.written.inexact {
+        seen.entry(number.to_bits()).or_insert((*number, *span));
     }
     let (_, (first, span)) = seen.iter().min_by_key(|(_, (_, span))| span.start)?;
     let others: Vec<String> = seen.values().filter(|(number, _)| number != first).map(|(n, _)| n.to_string()).collect();
@@ -101,13 +78,6 @@ fn inexact(program: &Program) -> Option<Diagnostic> {
         true => note,
         false => note.help(format!("the same goes for {}", words::list(&others))),
     })
-}
-
-fn constants(expr: &Expr, found: &mut Vec<(f64, Span)>) {
-    if let ExprKind::Number(number) = expr.kind {
-        found.push((number, expr.span));
-    }
-    expr.parts().into_iter().for_each(|part| constants(part, found));
 }
 
 /// Names of levels whose constants would be the same in generated code, where constants are upper case.

@@ -13,6 +13,8 @@ use crate::build;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff::{self, Options};
 use crate::gpu::{AdapterChoice, Gpu};
+use crate::plan::Weights;
+use crate::profile;
 use crate::program::Program;
 use crate::tuned::{Auto, Tuned};
 
@@ -32,6 +34,10 @@ pub(super) struct Arguments {
     /// Directory of what `umbrage tune` chose, for auto [default: tuned beside the directory of the tables]
     #[arg(long, value_name = "DIR")]
     tuned: Option<PathBuf>,
+    /// Profiles to plan for, each for the table that it counts [default: profiles/TABLE.ron beside the directory of
+    /// the tables, if there is one]
+    #[arg(long, value_name = "FILE", value_delimiter = ',')]
+    profile: Vec<PathBuf>,
     /// Let plans do anything where the table's assumptions do not hold, and compare where they do
     #[arg(long)]
     assume: bool,
@@ -55,8 +61,13 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     if !arguments.plan.is_empty() {
         options.shapes = named;
     }
-    let mut programs = Vec::new();
+    let mut given = Vec::new();
+    for path in &arguments.profile {
+        given.push((path.clone(), profile::read(path)?));
+    }
+    let mut programs: Vec<Program> = Vec::new();
     let mut tuned = Vec::new();
+    let mut profiles: Vec<Option<PathBuf>> = Vec::new();
     for path in &arguments.paths {
         for file in build::find_tables(path)? {
             let found = Program::read_all(&file)?;
@@ -64,6 +75,13 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
             programs.extend(found.into_iter().filter(|program| !path.is_dir() || program.exhibit.is_none()));
         }
         tuned.resize(programs.len(), arguments.tuned.clone().or_else(|| build::beside(path, "tuned")));
+        profiles.resize(programs.len(), build::beside(path, "profiles"));
+    }
+    if let Some((path, unused)) = given.iter().find(|(_, one)| programs.iter().all(|program| program.name != one.table))
+    {
+        let message = format!("is a profile of the table `{}`, which is not among those compared", unused.table);
+        let error = Diagnostic::error(codes::OTHER_PROFILE, message).help("give profiles of these tables");
+        return Err(Failure::bare(path.to_string_lossy().replace('\\', "/"), error).into());
     }
     let frames = match (arguments.frames.as_slice(), programs.as_slice()) {
         ([], _) => None,
@@ -83,8 +101,18 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         writeln!(out, "adapter: {}", gpu.describe())?;
     }
     let mut outcome = Outcome::Clean;
-    for (program, tuned) in programs.iter().zip(&tuned) {
-        let options = if auto { with_auto(program, &gpu, tuned.as_deref(), &options)? } else { options.clone() };
+    for ((program, tuned), profiles) in programs.iter().zip(&tuned).zip(&profiles) {
+        let mut options = if auto { with_auto(program, &gpu, tuned.as_deref(), &options)? } else { options.clone() };
+        let found = match profiles {
+            Some(directory) if given.is_empty() => build::profile_of(&program.name, directory)?,
+            _ => None,
+        };
+        let mut planned = build::Options { assume: options.assume, ..build::Options::default() };
+        for warning in build::weigh(program, if given.is_empty() { found.as_slice() } else { &given }, &mut planned)? {
+            report.failure(&Failure::bare("", warning));
+            outcome = Outcome::Findings;
+        }
+        options.weights = planned.weights.remove(&program.name);
         let bar = progress(program);
         let result = match &frames {
             None => diff::table(program, &gpu, &options, |state| bar.set_position(state as u64)),
@@ -96,8 +124,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
             outcome = Outcome::Findings;
         }
         match report.format {
-            Format::Human => human(&mut out, program, &result)?,
-            Format::Json => writeln!(out, "{}", json(&gpu, &result))?,
+            Format::Human => human(&mut out, program, options.weights.as_ref(), &result)?,
+            Format::Json => writeln!(out, "{}", json(&gpu, options.weights.as_ref(), &result))?,
         }
     }
     out.flush()?;
@@ -134,10 +162,11 @@ fn progress(program: &Program) -> ProgressBar {
     bar
 }
 
-fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Result<()> {
+fn human(out: &mut impl Write, program: &Program, weights: Option<&Weights>, report: &diff::Report) -> Result<()> {
     let function = program.function.as_ref().map_or(String::new(), |f| format!(", function {}", f.name));
     let states = report.states.map_or(String::new(), |states| format!("{states} states, "));
-    writeln!(out, "{}{function}: {states}{} points", program.source.name, report.points)?;
+    let planned = weights.map_or(String::new(), |weights| format!("; planned for {}", weights.origin()));
+    writeln!(out, "{}{function}: {states}{} points{planned}", program.source.name, report.points)?;
     writeln!(out, "  plan           entry   source   bit-equal  admissible   offending   worst difference")?;
     for run in &report.runs {
         writeln!(
@@ -164,7 +193,7 @@ fn human(out: &mut impl Write, program: &Program, report: &diff::Report) -> Resu
     Ok(())
 }
 
-fn json(gpu: &Gpu, report: &diff::Report) -> serde_json::Value {
+fn json(gpu: &Gpu, weights: Option<&Weights>, report: &diff::Report) -> serde_json::Value {
     let runs = report.runs.iter().map(|run| {
         json!({
             "plan": run.shape.name(),
@@ -183,6 +212,7 @@ fn json(gpu: &Gpu, report: &diff::Report) -> serde_json::Value {
         "table": report.table,
         "states": report.states,
         "points": report.points,
+        "profile": weights.map(Weights::origin),
         "runs": runs.collect::<Vec<_>>(),
     })
 }

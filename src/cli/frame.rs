@@ -63,33 +63,43 @@ impl FrameArguments {
         Bias { constant: self.bias, slope: self.slope_bias }
     }
 
-    /// The machine that was asked for. Where `auto` finds no GPU, a note says so.
+    /// The machine that was asked for.
     pub(super) fn executor(&self, report: &Report) -> Result<Executor, Failure> {
-        match self.backend {
-            Backend::Cpu => Ok(Executor::Cpu),
-            Backend::Gpu => self.gpu(false),
-            Backend::Auto => Ok(self.gpu(true).unwrap_or_else(|failure| {
-                let reason = failure.diagnostics.first().map_or(String::new(), |d| format!(": {}", d.message));
-                let note = Diagnostic::note(codes::NO_ADAPTER, format!("rendering on the CPU{reason}"));
-                report.failure(&Failure::bare("", note.help("say `--backend cpu` or `--backend gpu` to choose")));
-                Executor::Cpu
-            })),
-        }
+        #[cfg(feature = "gpu")]
+        return executor(self.backend, &self.adapter, report);
+        #[cfg(not(feature = "gpu"))]
+        executor(self.backend, report)
     }
+}
 
+/// The machine that was asked for. Where `auto` finds no GPU, a note says so.
+pub(super) fn executor(
+    backend: Backend,
+    #[cfg(feature = "gpu")] adapter: &AdapterChoice,
+    report: &Report,
+) -> Result<Executor, Failure> {
     #[cfg(feature = "gpu")]
-    fn gpu(&self, hardware_only: bool) -> Result<Executor, Failure> {
-        let choice = match &self.adapter {
+    let gpu = |hardware_only| {
+        let choice = match adapter {
             AdapterChoice::Any if hardware_only => &AdapterChoice::Hardware,
             choice => choice,
         };
-        Ok(Executor::Gpu(Box::new(Gpu::open(choice)?)))
-    }
-
+        Ok::<_, Failure>(Executor::Gpu(Box::new(Gpu::open(choice)?)))
+    };
     #[cfg(not(feature = "gpu"))]
-    fn gpu(&self, _: bool) -> Result<Executor, Failure> {
+    let gpu = |_| {
         let error = Diagnostic::error(codes::NO_ADAPTER, "this build has no GPU support");
         Err(Failure::bare("", error.help("use `--backend cpu`, or build umbrage with the feature `gpu`")))
+    };
+    match backend {
+        Backend::Cpu => Ok(Executor::Cpu),
+        Backend::Gpu => gpu(false),
+        Backend::Auto => Ok(gpu(true).unwrap_or_else(|failure| {
+            let reason = failure.diagnostics.first().map_or(String::new(), |d| format!(": {}", d.message));
+            let note = Diagnostic::note(codes::NO_ADAPTER, format!("rendering on the CPU{reason}"));
+            report.failure(&Failure::bare("", note.help("say `--backend cpu` or `--backend gpu` to choose")));
+            Executor::Cpu
+        })),
     }
 }
 

@@ -1,5 +1,8 @@
 //! `umbrage tune`: measures every plan of a table here, and keeps the best.
 
+#[cfg(feature = "render")]
+mod whole;
+
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -7,6 +10,8 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
+#[cfg(feature = "render")]
+use super::frame::{parse_map, parse_size};
 use super::output::Sink;
 use super::report::{Format, Report};
 use super::{Outcome, Result, columns, parse_shape, profile};
@@ -59,6 +64,28 @@ pub(super) struct Arguments {
     /// Measure with the wall clock even if the device has timestamps
     #[arg(long)]
     wall_clock: bool,
+    /// Measure the plans, too, in the whole shadow pass that the table is for, on frames of scenes
+    #[cfg(feature = "render")]
+    #[arg(long)]
+    whole: bool,
+    /// Scenes for --whole: names of built-in ones, or files
+    #[cfg(feature = "render")]
+    #[arg(
+        long,
+        value_name = "SCENE",
+        value_delimiter = ',',
+        default_value = "fence,foliage,outdoor",
+        requires = "whole"
+    )]
+    scene: Vec<String>,
+    /// Size of the picture for --whole [default: 1920x1080; on a software adapter 480x270]
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size, requires = "whole")]
+    size: Option<(u32, u32)>,
+    /// Texels per side of the shadow map for --whole
+    #[cfg(feature = "render")]
+    #[arg(long, value_name = "TEXELS", default_value = "1024", value_parser = parse_map, requires = "whole")]
+    shadow_map: u32,
     /// Directory of the choices, one file per device
     #[arg(long, short, value_name = "DIR", default_value = "tuned")]
     output: PathBuf,
@@ -100,12 +127,25 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         protocol: Protocol { rounds: arguments.rounds, ..defaults.protocol },
         wall_clock: arguments.wall_clock,
     };
+    #[cfg(feature = "render")]
+    if arguments.whole {
+        // Said before anything takes time.
+        whole::check(arguments, &program)?;
+    }
     let gpu = Gpu::open(&arguments.adapter)?;
     let path = Tuned::path(&arguments.output, gpu.name());
     let kept = Tuned::read(&path)?.unwrap_or_else(|| Tuned::new(gpu.name()));
     let bar = progress();
     let result = tune::tune(&program, fitted, &weights, frames.as_ref(), &gpu, &options, |doing| {
         bar.set_message(doing.to_owned());
+    });
+    #[cfg(feature = "render")]
+    let result = result.and_then(|mut tuning| {
+        if arguments.whole {
+            bar.set_message("measuring whole shaders");
+            tuning.whole = whole::measure(arguments, &program, &gpu, &tuning)?;
+        }
+        Ok(tuning)
     });
     bar.finish_and_clear();
     let tuning = result?;
@@ -180,17 +220,23 @@ fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
     for (place, kind) in Kind::ALL.into_iter().enumerate() {
         let floor = 1e6 * tuning.floor[place].median();
         writeln!(out, "\n{kind} inputs; reading and writing them alone takes {floor:.1} us")?;
-        writeln!(out, "  plan                       us      +-   to ladder   to floor")?;
+        writeln!(out, "  plan                       us      +-   to ladder   to floor   estimate")?;
         for line in tuning.ranking(kind) {
             let name = tuning.plans[line.plan].candidate.name();
             let noise = if line.plan != 0 && !line.differs { "   within noise of the ladder" } else { "" };
             writeln!(
                 out,
-                "  {name:<20} {:>9.1} {:>7.1} {:>11.3} {:>10.2}{noise}",
-                line.us, line.uncertainty, line.vs_ladder, line.vs_floor
+                "  {name:<20} {:>9.1} {:>7.1} {:>11.3} {:>10.2} {:>10.3}{noise}",
+                line.us, line.uncertainty, line.vs_ladder, line.vs_floor, line.estimate
             )?;
         }
+        let [group, everything] =
+            tuning.agreement(kind).map(|value| value.map_or("none".to_owned(), |value| format!("{value:.2}")));
+        writeln!(out, "  rank correlation of times with estimates {group}, with the size of plans {everything}")?;
     }
+    estimates(&mut out, tuning)?;
+    #[cfg(feature = "render")]
+    whole::human(&mut out, tuning)?;
     for (candidate, reason) in &tuning.skipped {
         writeln!(out, "left out: {}: {reason}", candidate.name())?;
     }
@@ -205,6 +251,30 @@ fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
     }
     writeln!(out, "kept in {}", path.display())?;
     out.flush()?;
+    Ok(())
+}
+
+/// What the profile says that plans should cost.
+fn estimates(out: &mut impl Write, tuning: &Tuning<'_>) -> Result<()> {
+    writeln!(out, "\nestimated operations: of a thread by itself and of a tile in step, as profiled; of every step")?;
+    writeln!(out, "  plan                 alone  to ladder      tile  to ladder     every  to ladder")?;
+    let ladder = &tuning.plans[0].estimate;
+    for plan in &tuning.plans {
+        let (name, estimate) = (plan.candidate.name(), &plan.estimate);
+        let pair = |value: Option<f64>, of: Option<f64>| match value.zip(of) {
+            Some((value, of)) => format!("{value:>9.1} {:>10.3}", value / of),
+            None => format!("{:>9} {:>10}", "-", "-"),
+        };
+        let alone = pair(Some(estimate.alone), Some(ladder.alone));
+        let tile = pair(estimate.tile, ladder.tile);
+        let every = pair(Some(estimate.everything), Some(ladder.everything));
+        writeln!(out, "  {name:<16} {alone} {tile} {every}")?;
+    }
+    for plan in &tuning.plans {
+        if let Some(certificate) = &plan.proved.plan().certificate {
+            writeln!(out, "{}: {certificate}", plan.candidate.name())?;
+        }
+    }
     Ok(())
 }
 
@@ -223,8 +293,40 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
             "vs_ladder": line.vs_ladder,
             "vs_floor": line.vs_floor,
             "differs": line.differs,
+            "uncertainty": line.uncertainty,
+            "estimate": line.estimate,
         })
     });
+    let ladder = &tuning.plans[0].estimate;
+    let estimates = tuning.plans.iter().map(|plan| {
+        let estimate = &plan.estimate;
+        json!({
+            "name": plan.candidate.name(),
+            "alone": estimate.alone,
+            "alone_vs_ladder": estimate.alone / ladder.alone,
+            "tile": estimate.tile,
+            "tile_vs_ladder": estimate.tile.zip(ladder.tile).map(|(tile, of_ladder)| tile / of_ladder),
+            "everything": estimate.everything,
+            "everything_vs_ladder": estimate.everything / ladder.everything,
+            "expected_tests": plan.proved.plan().certificate.map(|certificate| json!({
+                "written": certificate.written,
+                "planned": certificate.planned,
+                "bound": certificate.bound,
+                "optimal": certificate.is_optimal(),
+            })),
+        })
+    });
+    let agreement: serde_json::Map<String, serde_json::Value> = Kind::ALL
+        .into_iter()
+        .map(|kind| {
+            let [group, everything] = tuning.agreement(kind);
+            (kind.name().to_owned(), json!({"group": group, "everything": everything}))
+        })
+        .collect();
+    #[cfg(feature = "render")]
+    let whole = whole::object(tuning);
+    #[cfg(not(feature = "render"))]
+    let whole = json!([]);
     let left_out = |all: &[(tune::Candidate, String)]| {
         let one = |(candidate, reason): &(tune::Candidate, String)| json!({"name": candidate.name(), "reason": reason});
         all.iter().map(one).collect::<Vec<_>>()
@@ -237,5 +339,8 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
         "chosen": tuning.plans[tuning.chosen].candidate.name(),
         "skipped": left_out(&tuning.skipped),
         "wrong": left_out(&tuning.wrong),
+        "estimates": estimates.collect::<Vec<_>>(),
+        "agreement": agreement,
+        "whole": whole,
     })
 }

@@ -22,7 +22,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::harness::Entry;
 use crate::eval::{Batch, Columns, Interpreter, IntervalInterpreter, Results};
 use crate::gpu::{Gpu, Kernel, Language, Outputs};
-use crate::plan::{Plan, PlanOptions, Proved, Shape, is_unsuitable, reachable};
+use crate::plan::{Plan, PlanOptions, Proved, Shape, Weights, is_unsuitable, reachable};
 use crate::program::{Domain, Program};
 use crate::show::{Precision, sentence};
 
@@ -42,11 +42,13 @@ pub struct Options {
     pub effort: Effort,
     /// Whether plans may make use of the table's assumptions.
     pub assume: bool,
+    /// How often each state occurs, for plans that are made for that.
+    pub weights: Option<Weights>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { shapes: Shape::ALL.to_vec(), effort: Effort::default(), assume: false }
+        Self { shapes: Shape::ALL.to_vec(), effort: Effort::default(), assume: false, weights: None }
     }
 }
 
@@ -108,7 +110,7 @@ impl Report {
 /// # Errors
 /// When a plan cannot be proved, or the device fails.
 pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnMut(usize)) -> Result<Report, Failure> {
-    plans(program, &suitable(program, &options.shapes, options.assume)?, gpu, options.effort, progress)
+    plans(program, &suitable(program, options)?, gpu, options.effort, progress)
 }
 
 /// Compares plans of a program on a device with the interpreter at given points,
@@ -117,7 +119,7 @@ pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnM
 /// # Errors
 /// When a plan cannot be proved, an input is missing, or the device fails.
 pub fn frames(program: &Program, gpu: &Gpu, options: &Options, frames: &[Columns<f32>]) -> Result<Report, Failure> {
-    let proved = suitable(program, &options.shapes, options.assume)?;
+    let proved = suitable(program, options)?;
     let mut comparison = Comparison::new(program, &proved, gpu)?;
     for columns in frames {
         comparison.points(columns)?;
@@ -136,11 +138,13 @@ pub fn at(program: &Program, proved: &[Proved<'_>], gpu: &Gpu, columns: &Columns
 }
 
 /// The plans that suit a table, proved; at least one.
-fn suitable<'p>(program: &'p Program, shapes: &[Shape], assume: bool) -> Result<Vec<Proved<'p>>, Failure> {
+fn suitable<'p>(program: &'p Program, options: &Options) -> Result<Vec<Proved<'p>>, Failure> {
     let mut proved = Vec::new();
     let mut unsuitable = None;
-    for shape in shapes {
-        let options = PlanOptions { shape: *shape, weights: None, assume };
+    for shape in &options.shapes {
+        // The ladder is the order as written, whatever occurs.
+        let weights = options.weights.as_ref().filter(|_| *shape != Shape::Ladder);
+        let options = PlanOptions { shape: *shape, weights, assume: options.assume };
         match Plan::proved(program, options) {
             Ok(plan) => proved.push(plan),
             Err(failure) if is_unsuitable(&failure) => unsuitable = unsuitable.or(Some(failure)),

@@ -27,7 +27,7 @@ pub(crate) mod symbolic;
 
 use std::sync::Arc;
 
-use crate::diag::{Failure, Source, Span};
+use crate::diag::{Failure, Source, Span, Spanned};
 use crate::table::{Allow, Erratum, HitPolicy, Table};
 
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
@@ -102,6 +102,19 @@ pub struct Program {
     pub allow: Vec<Allow>,
     /// Set for a table that is kept to be looked at, mistakes included, with the reason.
     pub exhibit: Option<String>,
+    /// What the table says that this does not keep.
+    pub written: Written,
+}
+
+/// What is only in how a table is written.
+#[derive(Debug, Clone, Default)]
+pub struct Written {
+    /// Names that nothing leads to.
+    pub unused_names: Vec<Spanned<String>>,
+    /// Helpers that nothing calls.
+    pub unused_helpers: Vec<Spanned<String>>,
+    /// Numbers that no `f32` equals.
+    pub inexact: Vec<(f64, Span)>,
 }
 
 /// What is said of a program that is a function of a table. The conditions of

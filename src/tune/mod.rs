@@ -7,11 +7,14 @@
 //! those that cannot be told from it the simplest, so that noise alone never
 //! makes a choice.
 
+mod estimate;
 #[cfg(feature = "report")]
 mod graph;
 mod inputs;
 #[cfg(feature = "report")]
 mod page;
+#[cfg(feature = "render")]
+pub mod whole;
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff;
@@ -23,7 +26,9 @@ use crate::plan::{Plan, PlanOptions, Proved, Shape, Weights};
 use crate::profile::Fitted;
 use crate::program::Program;
 use crate::tuned::{Choice, Evidence};
+use estimate::rank_correlation;
 
+pub use estimate::Estimate;
 pub use inputs::Kind;
 #[cfg(feature = "report")]
 pub use page::page;
@@ -117,6 +122,8 @@ pub struct Measured<'p> {
     pub check: diff::Run,
     /// Times by kind of input, in the order of [`Kind::ALL`].
     pub times: Vec<Times>,
+    /// What it should cost.
+    pub estimate: Estimate,
 }
 
 /// What tuning found.
@@ -142,6 +149,9 @@ pub struct Tuning<'p> {
     pub wrong: Vec<(Candidate, String)>,
     /// The chosen plan, as an index into `plans`.
     pub chosen: usize,
+    /// The plans in whole shaders, if that was measured.
+    #[cfg(feature = "render")]
+    pub whole: Vec<whole::Whole>,
 }
 
 /// Tunes a table for a device. `progress` is told what is being done.
@@ -171,7 +181,7 @@ pub fn tune<'p>(
     for ((candidate, proved), check) in proved.drain(..).zip(checks) {
         match check.offenders.first() {
             Some(offender) => wrong.push((candidate, format!("{} at {}", offender.reason, offender.inputs))),
-            None => plans.push(Measured { candidate, proved, check, times: Vec::new() }),
+            None => plans.push(Measured { candidate, proved, check, times: Vec::new(), estimate: Estimate::default() }),
         }
     }
     if plans.first().is_none_or(|plan| plan.candidate != Candidate::WRITTEN) {
@@ -190,6 +200,7 @@ pub fn tune<'p>(
         subjects.push(Timed::plan(gpu, &plan.proved, options.rows_of_thread)?);
     }
     let mut floor = Vec::new();
+    let mut measured_at = Vec::new();
     for kind in Kind::ALL {
         progress(&format!("measuring {kind} inputs"));
         let columns = match kind {
@@ -213,6 +224,10 @@ pub fn tune<'p>(
         for (plan, times) in plans.iter_mut().zip(times) {
             plan.times.push(times);
         }
+        measured_at.push(columns);
+    }
+    for plan in &mut plans {
+        plan.estimate = Estimate::new(plan.proved.plan(), &measured_at, &profile.profile);
     }
     let chosen = choose(&plans);
     Ok(Tuning {
@@ -226,6 +241,8 @@ pub fn tune<'p>(
         skipped,
         wrong,
         chosen,
+        #[cfg(feature = "render")]
+        whole: Vec::new(),
     })
 }
 
@@ -278,6 +295,8 @@ pub struct Line {
     pub vs_floor: f64,
     /// Whether it differs from the ladder as written by more than noise.
     pub differs: bool,
+    /// What a group of threads should cost, relative to the ladder as written.
+    pub estimate: f64,
 }
 
 impl Tuning<'_> {
@@ -295,11 +314,22 @@ impl Tuning<'_> {
                 vs_ladder: times.median() / ladder.median(),
                 vs_floor: times.median() / floor.median(),
                 differs: times.differs_from(ladder),
+                estimate: measured.estimate.of_kind[place] / self.plans[0].estimate.of_kind[place],
             }
         };
         let mut lines: Vec<Line> = self.plans.iter().enumerate().map(line).collect();
         lines.sort_by(|a, b| a.us.total_cmp(&b.us));
         lines
+    }
+
+    /// How well the estimates put the plans in the order of their times, -1 to 1:
+    /// those of a group in step, and those of every step of the plan.
+    pub fn agreement(&self, kind: Kind) -> [Option<f64>; 2] {
+        let lines = self.ranking(kind);
+        let times: Vec<f64> = lines.iter().map(|line| line.us).collect();
+        let group: Vec<f64> = lines.iter().map(|line| line.estimate).collect();
+        let everything: Vec<f64> = lines.iter().map(|line| self.plans[line.plan].estimate.everything).collect();
+        [group, everything].map(|estimates| rank_correlation(&estimates, &times))
     }
 
     /// Whether the chosen plan differs from the ladder as written by more than noise, on captured inputs.

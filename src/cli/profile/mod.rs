@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 #[cfg(feature = "render")]
-use super::frame::{parse_map, parse_size, parse_technique};
+use super::frame::{Backend, parse_map, parse_size, parse_technique};
 use super::output::Sink;
 use super::report::Report;
 use super::{Outcome, Result, columns};
@@ -61,6 +61,14 @@ struct Count {
     #[arg(long, value_name = "TEXELS", default_value_t = crate::shadow::Settings::default().search_limit,
           value_parser = clap::value_parser!(u32).range(1..=4096))]
     search_limit: u32,
+    /// What counts: gpu uses counters of the device, and finds the same
+    #[cfg(feature = "render")]
+    #[arg(long, value_enum, default_value = "cpu", value_name = "WHAT")]
+    backend: Backend,
+    /// The adapter: any, software, hardware, or a part of its name
+    #[cfg(all(feature = "render", feature = "gpu"))]
+    #[arg(long, value_name = "WHICH", default_value = "any")]
+    adapter: crate::gpu::AdapterChoice,
     /// The table [default for scenes: that of the technique]
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
@@ -98,7 +106,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 fn count(arguments: &Count, report: &Report) -> Result<Outcome> {
     #[cfg(feature = "render")]
     if !arguments.scene.is_empty() {
-        let (program, profile) = scenes::run(arguments)?;
+        let (program, profile) = scenes::run(arguments, report)?;
         return finish(&program, profile, &arguments.output, report);
     }
     let (Some(table), false) = (&arguments.table, arguments.frames.is_empty()) else {

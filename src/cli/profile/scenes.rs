@@ -1,17 +1,22 @@
 //! Counting what scenes need: they are rendered, and every evaluation of the table is counted.
 
+use super::super::frame;
+use super::super::report::Report;
 use super::Count;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::Profile;
 use crate::program::Program;
 use crate::shadow::count::count;
+#[cfg(feature = "gpu")]
+use crate::shadow::count::count_on;
 use crate::shadow::cpu::{self, Frame};
+use crate::shadow::executor::Executor;
 use crate::shadow::passes::{Bias, Stage};
 use crate::shadow::scene::Scene;
 use crate::shadow::{Settings, Technique};
 
 /// Renders scenes and counts.
-pub(super) fn run(arguments: &Count) -> Result<(Program, Profile), Failure> {
+pub(super) fn run(arguments: &Count, report: &Report) -> Result<(Program, Profile), Failure> {
     let technique = arguments.technique;
     let Some(own) = cpu::table(technique)? else {
         let with: Vec<&str> = Technique::ALL.into_iter().filter(|t| t.table().is_some()).map(Technique::name).collect();
@@ -26,6 +31,7 @@ pub(super) fn run(arguments: &Count) -> Result<(Program, Profile), Failure> {
     for name in &arguments.scene {
         scenes.push((name, Scene::open(name)?));
     }
+    let executor = executor(arguments, report)?;
     let mut profile = Profile::new(&program);
     let (width, height) = arguments.size;
     for (name, scene) in &scenes {
@@ -35,7 +41,19 @@ pub(super) fn run(arguments: &Count) -> Result<(Program, Profile), Failure> {
         let settings = Settings { search_limit: arguments.search_limit, ..Settings::default() };
         let frame = Frame { map: &map, receivers: &receivers, settings: &settings };
         let name = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        profile.scenes.push(count(&program, &name, technique, frame)?);
+        profile.scenes.push(match &executor {
+            Executor::Cpu => count(&program, &name, technique, frame)?,
+            #[cfg(feature = "gpu")]
+            Executor::Gpu(gpu) => count_on(gpu, &program, &name, technique, frame)?,
+        });
     }
     Ok((program, profile))
+}
+
+/// The machine that was asked for.
+fn executor(arguments: &Count, report: &Report) -> Result<Executor, Failure> {
+    #[cfg(feature = "gpu")]
+    return frame::executor(arguments.backend, &arguments.adapter, report);
+    #[cfg(not(feature = "gpu"))]
+    frame::executor(arguments.backend, report)
 }

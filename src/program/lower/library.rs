@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use super::terms::{Expected, Term};
-use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once};
+use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
 use crate::program::pool;
@@ -251,6 +251,7 @@ impl<'t> Lowering<'t> {
             continuity: Vec::new(),
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
+            written: written::shared(table, &function.name.value),
         })
     }
 

@@ -13,6 +13,7 @@ mod scope;
 mod terms;
 #[cfg(test)]
 mod tests;
+mod written;
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -205,6 +206,7 @@ impl<'t> Lowering<'t> {
             continuity,
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
+            written: written::written(table),
         })
     }
 }

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit;
+use crate::emit::{self, harness::reads_lookup};
 use crate::plan::{Plan, Proved};
 use crate::shadow::Technique;
 
@@ -126,7 +126,8 @@ pub fn source(
             out.push_str(part);
         }
         let name = &plan.program.name;
-        if module.contains(&format!("{name}_lookup(")) {
+        // A lookup in constants is part of the module.
+        if reads_lookup(proved) {
             out.push_str("@group(0) @binding(5) var<storage, read> lookup_words: array<u32>;\n");
             let _ = writeln!(out, "fn {name}_lookup(word: u32) -> u32 {{ return lookup_words[word]; }}");
         }

@@ -1,0 +1,146 @@
+//! What a table says that its meaning does not keep, for findings about how it is written.
+
+use std::collections::HashSet;
+
+use crate::diag::Spanned;
+use crate::program::Written;
+use crate::table::expr::{Expr, ExprKind, SumOver};
+use crate::table::{CaseBody, FunctionBody, Image, Table};
+
+/// Looks at all that is written in a table of cases.
+pub(super) fn written(table: &Table) -> Written {
+    let (unused_names, unused_helpers) = (unused_names(table), unused_helpers(table));
+    let mut written = Written { unused_names, unused_helpers, inexact: Vec::new() };
+    for case in &table.cases {
+        if let CaseBody::Rows { when, lines } = &case.body {
+            inexact(when, &mut written);
+            for line in lines {
+                inexact(&line.value, &mut written);
+                line.condition.iter().for_each(|condition| inexact(condition, &mut written));
+            }
+        }
+    }
+    table.names.iter().for_each(|named| inexact(&named.value, &mut written));
+    inexact(&table.default, &mut written);
+    written
+}
+
+/// Looks at what the functions of a table share, with the first of them.
+pub(super) fn shared(table: &Table, function: &str) -> Written {
+    let is_first = table.functions.first().is_some_and(|first| first.name.value == function);
+    Written { unused_helpers: if is_first { unused_helpers(table) } else { Vec::new() }, ..Written::default() }
+}
+
+fn inexact(expr: &Expr, written: &mut Written) {
+    if let ExprKind::Number(number) = expr.kind
+        && f64::from(number as f32) != number
+    {
+        written.inexact.push((number, expr.span));
+    }
+    expr.parts().into_iter().for_each(|part| inexact(part, written));
+}
+
+/// Names that no case, default, assumption or symmetry leads to.
+fn unused_names(table: &Table) -> Vec<Spanned<String>> {
+    if table.names.is_empty() {
+        return Vec::new();
+    }
+    let mut mentioned = HashSet::new();
+    for case in &table.cases {
+        if let CaseBody::Rows { when, lines } = &case.body {
+            mentions(when, &mut mentioned);
+            for line in lines {
+                mentions(&line.value, &mut mentioned);
+                line.condition.iter().for_each(|c| mentions(c, &mut mentioned));
+            }
+        }
+    }
+    mentions(&table.default, &mut mentioned);
+    table.assumptions.iter().for_each(|a| mentions(&a.condition, &mut mentioned));
+    for symmetry in &table.symmetries {
+        symmetry.result.iter().for_each(|r| mentions(r, &mut mentioned));
+        for (_, image) in &symmetry.map {
+            if let Image::Expr(expr) = image {
+                mentions(expr, &mut mentioned);
+            }
+        }
+    }
+    // What a used name mentions is used, until nothing is added.
+    let mut pending: Vec<_> = table.names.iter().collect();
+    loop {
+        let (used, rest): (Vec<_>, Vec<_>) = pending.into_iter().partition(|n| mentioned.contains(&*n.name.value));
+        pending = rest;
+        if used.is_empty() {
+            break;
+        }
+        used.iter().for_each(|named| mentions(&named.value, &mut mentioned));
+    }
+    pending.into_iter().map(|named| named.name.clone()).collect()
+}
+
+/// Helpers that nothing calls but helpers that nothing calls.
+fn unused_helpers(table: &Table) -> Vec<Spanned<String>> {
+    if table.helpers.is_empty() {
+        return Vec::new();
+    }
+    let mut open: Vec<&Expr> = vec![&table.default];
+    open.extend(table.names.iter().map(|named| &named.value));
+    open.extend(table.assumptions.iter().map(|assumption| &assumption.condition));
+    open.extend(table.symmetries.iter().filter_map(|symmetry| symmetry.result.as_ref()));
+    let case = |case: &'_ crate::table::Case| -> Vec<Expr> {
+        let CaseBody::Rows { when, lines } = &case.body else { return Vec::new() };
+        let lines = lines.iter().flat_map(|line| [Some(&line.value), line.condition.as_ref()]).flatten();
+        std::iter::once(when).chain(lines).cloned().collect()
+    };
+    let mut cases: Vec<Expr> = table.cases.iter().flat_map(case).collect();
+    for function in &table.functions {
+        open.extend(function.bindings.iter().map(|binding| &binding.value));
+        open.extend(function.domain.iter().map(|assumption| &assumption.condition));
+        open.extend(function.limits.iter().map(|limit| &limit.value));
+        open.extend(function.accuracy.iter().map(|accuracy| &accuracy.scale));
+        match &function.body {
+            FunctionBody::Value(value) => open.push(value),
+            FunctionBody::Cases { cases: own, default } => {
+                open.push(default);
+                cases.extend(own.iter().flat_map(case));
+            }
+        }
+    }
+    open.extend(&cases);
+    let mut used: HashSet<&str> = HashSet::new();
+    while let Some(expr) = open.pop() {
+        open.extend(expr.parts());
+        if let ExprKind::Call(name, _) | ExprKind::With(name, _) = &expr.kind
+            && let Some(helper) = table.helpers.iter().find(|helper| helper.name.value == name.value)
+            && used.insert(&helper.name.value)
+        {
+            open.extend(helper.lines.iter().flat_map(|line| [Some(&line.value), line.condition.as_ref()]).flatten());
+        }
+    }
+    let unused = table.helpers.iter().filter(|helper| !used.contains(helper.name.value.as_str()));
+    unused.map(|helper| helper.name.clone()).collect()
+}
+
+/// Every name that an expression mentions; of `v.xy` also `v`.
+fn mentions<'t>(expr: &'t Expr, found: &mut HashSet<&'t str>) {
+    let mut all = |parts: &[&'t Expr]| parts.iter().for_each(|part| mentions(part, found));
+    match &expr.kind {
+        ExprKind::Number(_) => {}
+        ExprKind::Name(name) => {
+            found.insert(name);
+            if let Some((base, _)) = name.rsplit_once('.') {
+                found.insert(base);
+            }
+        }
+        ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => all(&[a]),
+        ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => all(&[a, b]),
+        ExprKind::If(c, a, b) => all(&[c, a, b]),
+        ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().for_each(|item| mentions(item, found)),
+        ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
+            set.iter().for_each(|(_, value)| mentions(value, found));
+        }
+        ExprKind::Between(body, _, lo, hi) => all(&[body, lo, hi]),
+        ExprKind::Sum(_, SumOver::Items(_), term) => all(&[term]),
+        ExprKind::Sum(_, SumOver::Range(lo, hi), term) => all(&[lo, hi, term]),
+    }
+}
