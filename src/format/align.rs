@@ -13,13 +13,15 @@ const ALIGNED: [&str; 7] = ["levels", "inputs", "names", "symmetries", "assume",
 /// Keys, and other cells, that are wider than others by more than this form a column of their own.
 const NEAR: (usize, usize) = (6, 16);
 
+/// The pieces of a row that begin a cell, with the name of its field if it has one.
+type Stops = Vec<(usize, String)>;
+
 /// A row that takes part in an alignment.
 struct Row {
     line: usize,
     /// Whether its only cell is the value of a key.
     keyed: bool,
-    /// The pieces that begin a cell, with the name of its field if it has one.
-    stops: Vec<(usize, String)>,
+    stops: Stops,
 }
 
 /// Sets the gaps of all pieces that stand in columns.
@@ -76,7 +78,7 @@ fn is_inside(mut pair: usize, outer: usize, pairs: &[Pair]) -> bool {
 }
 
 /// The pair whose item begins on a line that is a row, the cells, and whether no row can follow.
-fn row(line: &Line<'_>, pairs: &[Pair]) -> Option<(usize, Vec<(usize, String)>, bool)> {
+fn row(line: &Line<'_>, pairs: &[Pair]) -> Option<(usize, Stops, bool)> {
     let first = line.pieces.first()?;
     if !first.begins {
         return None;
