@@ -8,7 +8,7 @@ mod synthetic;
 
 use divan::Bencher;
 use umbrage::emit::{self, Target};
-use umbrage::plan::{LookupPlace, Plan, Proved, Shape};
+use umbrage::plan::{LookupPlace, Plan, Proved, Shape, prove};
 use umbrage::program::Program;
 use umbrage::table::Table;
 
@@ -38,6 +38,20 @@ fn check(bencher: Bencher<'_, '_>, path: &str) {
 fn plan_and_prove<const SHAPE: usize>(bencher: Bencher<'_, '_>, path: &str) {
     let program = program(path);
     bencher.bench(|| proved(&program, SHAPES[SHAPE]).proof().paths);
+}
+
+/// The proof of every plan of the larger table, and before it the making of the plan.
+#[divan::bench(args = Shape::ALL, sample_count = 20)]
+fn plan(bencher: Bencher<'_, '_>, shape: Shape) {
+    let program = program(TABLES[1]);
+    bencher.bench(|| Plan::new(&program, shape).unwrap_or_else(|error| panic!("{error}")).root());
+}
+
+#[divan::bench(args = Shape::ALL, sample_count = 20)]
+fn prove(bencher: Bencher<'_, '_>, shape: Shape) {
+    let program = program(TABLES[1]);
+    let plan = Plan::new(&program, shape).unwrap_or_else(|error| panic!("{error}"));
+    bencher.bench(|| prove::prove(&plan).unwrap_or_else(|error| panic!("{error:?}")).paths);
 }
 
 #[divan::bench(args = TABLES, consts = [0, 1])]

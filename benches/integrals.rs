@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use umbrage::diag::{Failure, Source};
 use umbrage::emit::{self, harness::Entry};
@@ -62,7 +62,7 @@ fn main() -> Result<(), Failure> {
         let there = Errors::new(form, &on_device[index]);
         let speed = |seconds: f64, count: usize| count as f64 / seconds / 1e6;
         println!(
-            "| {} | {:.1} | {:.1} | {:.1} | {:.0} % | {:.1e} | {:.1e} | {:.1e} |",
+            "| {} | {:.2} | {:.2} | {:.2} | {:.0} % | {:.1e} | {:.1e} | {:.1e} |",
             form.label,
             speed(batch[index].median(), COUNT),
             1e3 / rust[index],
@@ -133,7 +133,7 @@ fn point(inputs: &[&str], row: usize) -> Vec<f32> {
     // The additive sequence of the generalised golden ratio in each place.
     let part =
         |place: usize| (0.5 + (row + 1) as f64 * (0.618_033_988_75 + 0.137_213_1 * place as f64).fract()).fract();
-    let k = if row % 2 == 0 { 0.0 } else { part(4) - 0.45 };
+    let k = if row.is_multiple_of(2) { 0.0 } else { part(4) - 0.45 };
     let (phi0, theta, width) = (5.0 * part(1), 0.3 + 2.0 * part(2), 0.02 + 0.33 * part(3));
     let boundary = theta + 0.02 + 0.3 * part(5);
     let [z, turn] = [2.0 * part(6) - 1.0, 2.0 * PI * part(7)];
@@ -259,7 +259,7 @@ fn emitted_rust(forms: &[Form]) -> Result<Vec<f64>, Failure> {
     Ok(String::from_utf8_lossy(&said.stdout).lines().filter_map(|line| line.parse().ok()).collect())
 }
 
-/// Times on a device without what reading and writing alone take, and the first number of each result.
+/// Times of passes on a device, which read the points from memory, and the first number of each result.
 fn device(gpu: &Gpu, forms: &[Form], few: &[Columns<f32>]) -> Result<(Vec<Times>, Vec<Vec<f32>>), Failure> {
     let watch = Stopwatch::new(gpu);
     let (mut passes, mut values) = (Vec::new(), Vec::new());
@@ -267,12 +267,11 @@ fn device(gpu: &Gpu, forms: &[Form], few: &[Columns<f32>]) -> Result<(Vec<Times>
         let proved = Plan::proved(&form.program, Shape::Ladder)?;
         values.push(Kernel::new(gpu, &proved, Entry::Levels, Language::Wgsl)?.run(few)?.values.swap_remove(0));
         let load = Workload::new(gpu, &form.program, &columns(form, COPIES))?;
-        passes.push((Timed::plan(gpu, &proved, 1)?, Timed::floor(gpu, &form.program, 1)?, load));
+        passes.push((Timed::plan(gpu, &proved, 1)?, load));
     }
-    let times = interleaved(PROTOCOL, forms.len(), |form| -> Result<Duration, Failure> {
-        let (plan, floor, load) = &passes[form];
-        let (plan, floor) = (plan.time(gpu, &watch, load, 4)?, floor.time(gpu, &watch, load, 4)?);
-        Ok(plan.saturating_sub(floor).max(Duration::from_nanos(1)))
+    let times = interleaved(PROTOCOL, forms.len(), |form| {
+        let (plan, load) = &passes[form];
+        plan.time(gpu, &watch, load, 4)
     })?;
     Ok((times, values))
 }

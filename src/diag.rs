@@ -231,6 +231,8 @@ pub mod codes {
     pub const BAD_VALUE: Code = Code("U0702");
     pub const NEEDS_FETCH: Code = Code("U0703");
     pub const BAD_CAPTURE: Code = Code("U0704");
+    pub const FORMAT: Code = Code("U0721");
+    pub const EXISTS: Code = Code("U0722");
 
     // Devices.
     pub const NO_ADAPTER: Code = Code("U0801");

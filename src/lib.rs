@@ -36,6 +36,7 @@ pub mod diff;
 pub mod emit;
 pub mod eval;
 pub mod explain;
+pub mod format;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 #[cfg(feature = "render")]

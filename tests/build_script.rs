@@ -102,7 +102,7 @@ fn large() -> String {
     let inputs: String = (0..4).map(|level| format!("\"i{level}\": Int(from: 0, to: 3, default: 0),")).collect();
     format!(
         "Table(language: 1, name: \"large\", title: \"\", source: \"\", hit_policy: First,\n\
-         inputs: {{{inputs} \"x\": Range(from: 0, to: 1, default: 0)}},\nnames: {{{names}}},\n\
+         inputs: {{{inputs} \"idle\": Bool(default: false), \"x\": Range(from: 0, to: 1, default: 0)}},\nnames: {{{names}}},\n\
          output: Number(),\ncases: [\n{cases}],\ndefault: 0)\n"
     )
 }
@@ -139,7 +139,7 @@ fn the_documented_example_works_and_notices_what_changes() {
     let output = roof.cargo(&["build"]);
     let said = text(&output.stderr);
     assert!(!output.status.success());
-    for expected in ["tables/snow.ron:46:", "`to_heaven` is not defined", "tables/large.ron:1:", "umbrage explain U"] {
+    for expected in ["tables/snow.ron:47:", "`to_heaven` is not defined", "tables/large.ron:1:", "umbrage explain U"] {
         assert!(said.contains(expected), "{expected}: {said}");
     }
     assert_eq!(Roof::written("snow/ordered.rs"), before);

@@ -245,25 +245,51 @@ fn values_and_errors_at_the_edges() {
     assert!(said.code == Some(2) && said.err.contains("a <= b does not hold"), "{}", said.all());
 }
 
-/// `docs/double_product_stable.ron` is what the command makes of the printed table, certificate included.
+/// The stabilised tables under `docs/` are what the command makes of the printed ones, certificates included.
 #[test]
-fn the_stabilised_table_is_what_the_command_makes() {
-    let place = Place::new();
-    place.table("double_product_printed.ron");
-    let said = place.run("stabilise double_product_printed.ron -o stable.ron --message-format json");
-    assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{}", said.all());
-    let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/double_product_stable.ron");
-    assert_eq!(place.read("stable.ron"), std::fs::read_to_string(kept).unwrap());
-    let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
-    let functions = report["functions"].as_array().unwrap();
-    assert_eq!(functions.len(), 15);
-    for function in functions {
-        let certificate = &function["certificate"];
-        assert_eq!(certificate["met"], true, "{function}");
-        assert!(certificate["points"].as_u64() >= Some(180) && certificate["admitted"].is_f64(), "{function}");
+fn stabilised_tables_are_what_the_command_makes() {
+    for (name, count) in [("double_product", 15), ("spherical_gaussian", 4)] {
+        let place = Place::new();
+        place.table(&format!("{name}_printed.ron"));
+        let said = place.run(&format!("stabilise {name}_printed.ron -o stable.ron --message-format json"));
+        assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{}", said.all());
+        let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("docs/{name}_stable.ron"));
+        assert_eq!(place.read("stable.ron"), std::fs::read_to_string(kept).unwrap());
+        let report: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+        let functions = report["functions"].as_array().unwrap();
+        assert_eq!(functions.len(), count);
+        for function in functions {
+            let certificate = &function["certificate"];
+            assert_eq!(certificate["met"], true, "{function}");
+            assert!(certificate["points"].as_u64() >= Some(90) && certificate["admitted"].is_f64(), "{function}");
+        }
+        let said = place.run("check stable.ron");
+        assert_eq!(said.code, Some(0), "{}", said.all());
     }
-    let said = place.run("check stable.ron");
-    assert_eq!(said.code, Some(0), "{}", said.all());
+}
+
+/// What has no formula to rewrite, or nowhere to go, leaves nothing behind.
+#[test]
+fn what_cannot_be_stabilised() {
+    let place = Place::new();
+    place.table("smsr.ron").table("double_product_printed.ron");
+    for (arguments, message) in [
+        ("stabilise smsr.ron -o new.ron", "the table has no functions to stabilise"),
+        ("stabilise missing.ron -o new.ron", "missing.ron"),
+        ("stabilise double_product_printed.ron -o no/such/folder.ron", "no/such/folder.ron"),
+    ] {
+        let said = place.run(arguments);
+        assert!(said.code == Some(2) && said.out.is_empty() && said.err.contains(message), "{}", said.all());
+        assert!(!place.path("new.ron").exists());
+    }
+    // Choices are left alone, and the command says so.
+    place.file(
+        "t.ron",
+        r#"Table(language: 1, name: "t", inputs: {"x": Range(from: -1, to: 1)},
+            functions: {"f": Function(parameters: ["x"], value: "if x < 0 { 1 / x } else { x }")})"#,
+    );
+    let said = place.run("stabilise t.ron -o new.ron --no-certificate");
+    assert!(said.code == Some(1) && said.out.contains("left alone: it is a choice"), "{}", said.all());
 }
 
 #[test]

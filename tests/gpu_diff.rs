@@ -3,10 +3,12 @@
 use std::path::Path;
 
 use umbrage::build::find_tables;
+use umbrage::diag::Source;
 use umbrage::diff::{self, Effort, Options};
 use umbrage::gpu::{AdapterChoice, Gpu};
-use umbrage::plan::Shape;
+use umbrage::plan::{LookupPlace, Shape};
 use umbrage::program::Program;
+use umbrage::table::Table;
 
 /// All states; fewer points in each than `umbrage diff` takes.
 #[test]
@@ -30,5 +32,27 @@ fn no_result_is_outside_of_what_wgsl_admits() {
                 assert_eq!(run.bit_equal + run.admissible, report.points);
             }
         }
+    }
+}
+
+/// Mesa's software rasteriser silently ignores what is nested deeper than eighty
+/// levels, and drivers nest chains; so long chains are cut into functions.
+#[test]
+fn long_chains_take_the_right_case() {
+    let gpu = Gpu::open(&AdapterChoice::Any).unwrap_or_else(|error| panic!("{error}"));
+    let cases: String = (0..120)
+        .map(|i| format!("Case(id: {}, when: \"a == {} && b == {}\", value: \"{i} + x\"),", i + 1, i / 20, i % 20))
+        .collect();
+    let text = format!(
+        "Table(language: 1, name: \"many\", hit_policy: First, inputs: {{\"a\": Int(from: 0, to: 6), \"b\": Int(from: 0, to: 19), \"x\": Range(from: 0, to: 1)}}, output: Number(), cases: [{cases}], default: \"-1\")"
+    );
+    let table = Table::parse(Source::new("many.ron", text)).unwrap_or_else(|error| panic!("{error}"));
+    let program = Program::check(&table).unwrap_or_else(|error| panic!("{error}"));
+    let shapes = vec![Shape::Ladder, Shape::Switch(LookupPlace::Constants)];
+    let options = Options { shapes, effort: Effort { grid: 2, random: 1, lines: 0 }, ..Options::default() };
+    let report = diff::table(&program, &gpu, &options, |_| {}).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(report.states, Some(140));
+    for run in &report.runs {
+        assert_eq!(run.offending, 0, "{}: {:?}", run.shape, run.offenders);
     }
 }

@@ -2,9 +2,8 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  fnv1a b51ffb290c3a5299, 31 cases
-// Inputs: fnv1a 7d9ef04225dba974, of texts, weights and options
+// Inputs: fnv1a 4d6458606d3ad383, of texts, weights and options
 // Plan:   ladder
-// Note:   chosen by `umbrage tune` on llvmpipe (LLVM 15.0.6, 256 bits)
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
 
 // Include it after `#version 450` and after what the host supplies:

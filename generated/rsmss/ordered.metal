@@ -5,7 +5,7 @@
 // Inputs: fnv1a 907f548909b50c6e, of texts, weights and options
 // Plan:   ordered
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
-// Cost:   expected tests 11.435, as written 20.427; at most 4.177 more than the optimum
+// Cost:   expected tests 11.352, as written 20.427; optimal
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
 
 // language: metal2.0
@@ -366,164 +366,191 @@ RsmssResult rsmss_key_case(
         return RsmssResult {1.0, 1u};
     }
     if (b_3 == RSMSS_B_EXITING) {
-        if (!((H_3 == RSMSS_H_RIGHT))) {
-            local_3 = H_3 == RSMSS_H_LEFT;
-        } else {
-            local_3 = true;
-        }
-        bool _e66 = local_3;
-        local_2 = _e66;
+        local_2 = H_3 == RSMSS_H_BOTH;
     } else {
         local_2 = false;
     }
-    bool _e68 = local_2;
-    if (_e68) {
-        if (!((V_3 == RSMSS_V_TOP))) {
-            local_5 = V_3 == RSMSS_V_BOTTOM;
+    bool _e61 = local_2;
+    if (_e61) {
+        local_3 = V_3 == RSMSS_V_NONE;
+    } else {
+        local_3 = false;
+    }
+    bool _e67 = local_3;
+    if (_e67) {
+        uint _e68 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
+        if (_e68 == RSMSS_H_NONE) {
+            return RsmssResult {metal::clamp(dV, 0.0, 1.0), 13u};
+        }
+        if (_e68 == RSMSS_H_LEFT) {
+            float A_h = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px);
+            return RsmssResult {metal::clamp(A_h, 0.0, 1.0), 13u};
+        }
+        if (_e68 == RSMSS_H_RIGHT) {
+            float B_h = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0);
+            return RsmssResult {metal::clamp(B_h, 0.0, 1.0), 13u};
+        }
+        return RsmssResult {0.0, 13u};
+    }
+    if (b_3 == RSMSS_B_EXITING) {
+        if (!((H_3 == RSMSS_H_RIGHT))) {
+            local_5 = H_3 == RSMSS_H_LEFT;
         } else {
             local_5 = true;
         }
-        bool _e79 = local_5;
-        local_4 = _e79;
+        bool _e117 = local_5;
+        local_4 = _e117;
     } else {
         local_4 = false;
     }
-    bool _e81 = local_4;
-    if (_e81) {
-        local_6 = !(domH_3);
+    bool _e119 = local_4;
+    if (_e119) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_7 = V_3 == RSMSS_V_BOTTOM;
+        } else {
+            local_7 = true;
+        }
+        bool _e130 = local_7;
+        local_6 = _e130;
     } else {
         local_6 = false;
     }
-    bool _e86 = local_6;
-    if (_e86) {
-        local_7 = !(domV_3);
+    bool _e132 = local_6;
+    if (_e132) {
+        local_8 = !(domH_3);
     } else {
-        local_7 = false;
+        local_8 = false;
     }
-    bool _e91 = local_7;
-    if (_e91) {
+    bool _e137 = local_8;
+    if (_e137) {
+        local_9 = !(domV_3);
+    } else {
+        local_9 = false;
+    }
+    bool _e142 = local_9;
+    if (_e142) {
         float F30_ = (V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py);
         return RsmssResult {metal::clamp(F30_, 0.0, 1.0), 26u};
     }
     if (b_3 == RSMSS_B_EXITING) {
         if (!((H_3 == RSMSS_H_RIGHT))) {
-            local_9 = H_3 == RSMSS_H_LEFT;
-        } else {
-            local_9 = true;
-        }
-        bool _e116 = local_9;
-        local_8 = _e116;
-    } else {
-        local_8 = false;
-    }
-    bool _e118 = local_8;
-    if (_e118) {
-        if (!((V_3 == RSMSS_V_TOP))) {
-            local_11 = V_3 == RSMSS_V_BOTTOM;
+            local_11 = H_3 == RSMSS_H_LEFT;
         } else {
             local_11 = true;
         }
-        bool _e129 = local_11;
-        local_10 = _e129;
+        bool _e167 = local_11;
+        local_10 = _e167;
     } else {
         local_10 = false;
     }
-    bool _e131 = local_10;
-    if (_e131) {
-        local_12 = domH_3;
+    bool _e169 = local_10;
+    if (_e169) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_13 = V_3 == RSMSS_V_BOTTOM;
+        } else {
+            local_13 = true;
+        }
+        bool _e180 = local_13;
+        local_12 = _e180;
     } else {
         local_12 = false;
     }
-    bool _e135 = local_12;
-    if (_e135) {
-        local_13 = !(domV_3);
+    bool _e182 = local_12;
+    if (_e182) {
+        local_14 = domH_3;
     } else {
-        local_13 = false;
+        local_14 = false;
     }
-    bool _e140 = local_13;
-    if (_e140) {
+    bool _e186 = local_14;
+    if (_e186) {
+        local_15 = !(domV_3);
+    } else {
+        local_15 = false;
+    }
+    bool _e191 = local_15;
+    if (_e191) {
         float F29_ = (H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px;
         float F31_ = (H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0);
         return RsmssResult {metal::clamp((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_ : F31_, 0.0, 1.0), 24u};
     }
     if (b_3 == RSMSS_B_EXITING) {
         if (!((H_3 == RSMSS_H_RIGHT))) {
-            local_15 = H_3 == RSMSS_H_LEFT;
-        } else {
-            local_15 = true;
-        }
-        bool _e173 = local_15;
-        local_14 = _e173;
-    } else {
-        local_14 = false;
-    }
-    bool _e175 = local_14;
-    if (_e175) {
-        if (!((V_3 == RSMSS_V_TOP))) {
-            local_17 = V_3 == RSMSS_V_BOTTOM;
+            local_17 = H_3 == RSMSS_H_LEFT;
         } else {
             local_17 = true;
         }
-        bool _e186 = local_17;
-        local_16 = _e186;
+        bool _e224 = local_17;
+        local_16 = _e224;
     } else {
         local_16 = false;
     }
-    bool _e188 = local_16;
-    if (_e188) {
-        local_18 = domV_3;
+    bool _e226 = local_16;
+    if (_e226) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_19 = V_3 == RSMSS_V_BOTTOM;
+        } else {
+            local_19 = true;
+        }
+        bool _e237 = local_19;
+        local_18 = _e237;
     } else {
         local_18 = false;
     }
-    bool _e192 = local_18;
-    if (_e192) {
-        local_19 = !(domH_3);
+    bool _e239 = local_18;
+    if (_e239) {
+        local_20 = domV_3;
     } else {
-        local_19 = false;
+        local_20 = false;
     }
-    bool _e197 = local_19;
-    if (_e197) {
+    bool _e243 = local_20;
+    if (_e243) {
+        local_21 = !(domH_3);
+    } else {
+        local_21 = false;
+    }
+    bool _e248 = local_21;
+    if (_e248) {
         float F28_ = (V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py);
         float F30_1 = (V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py);
         return RsmssResult {metal::clamp((tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_ : F30_1, 0.0, 1.0), 25u};
     }
     if (b_3 == RSMSS_B_EXITING) {
         if (!((H_3 == RSMSS_H_RIGHT))) {
-            local_21 = H_3 == RSMSS_H_LEFT;
-        } else {
-            local_21 = true;
-        }
-        bool _e230 = local_21;
-        local_20 = _e230;
-    } else {
-        local_20 = false;
-    }
-    bool _e232 = local_20;
-    if (_e232) {
-        if (!((V_3 == RSMSS_V_TOP))) {
-            local_23 = V_3 == RSMSS_V_BOTTOM;
+            local_23 = H_3 == RSMSS_H_LEFT;
         } else {
             local_23 = true;
         }
-        bool _e243 = local_23;
-        local_22 = _e243;
+        bool _e281 = local_23;
+        local_22 = _e281;
     } else {
         local_22 = false;
     }
-    bool _e245 = local_22;
-    if (_e245) {
-        local_24 = domH_3;
+    bool _e283 = local_22;
+    if (_e283) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_25 = V_3 == RSMSS_V_BOTTOM;
+        } else {
+            local_25 = true;
+        }
+        bool _e294 = local_25;
+        local_24 = _e294;
     } else {
         local_24 = false;
     }
-    bool _e249 = local_24;
-    if (_e249) {
-        local_25 = domV_3;
+    bool _e296 = local_24;
+    if (_e296) {
+        local_26 = domH_3;
     } else {
-        local_25 = false;
+        local_26 = false;
     }
-    bool _e253 = local_25;
-    if (_e253) {
+    bool _e300 = local_26;
+    if (_e300) {
+        local_27 = domV_3;
+    } else {
+        local_27 = false;
+    }
+    bool _e304 = local_27;
+    if (_e304) {
         float F29_1 = (H_3 == RSMSS_H_LEFT) ? (1.0 - px) : px;
         float F31_1 = (H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0);
         float F28_1 = (V_3 == RSMSS_V_BOTTOM) ? py : (1.0 - py);
@@ -531,30 +558,30 @@ RsmssResult rsmss_key_case(
         return RsmssResult {metal::clamp(metal::max((tV_3 == RSMSS_TH_DUAL_POSITIVE) ? F29_1 : F31_1, (tH_3 == RSMSS_TH_DUAL_POSITIVE) ? F28_1 : F30_2), 0.0, 1.0), 27u};
     }
     if (b_3 == RSMSS_B_EXITING) {
-        local_26 = H_3 != RSMSS_H_BOTH;
-    } else {
-        local_26 = false;
-    }
-    bool _e297 = local_26;
-    if (_e297) {
-        local_27 = V_3 != RSMSS_V_BOTH;
-    } else {
-        local_27 = false;
-    }
-    bool _e303 = local_27;
-    if (_e303) {
-        local_28 = tH_3 == RSMSS_TH_POSITIVE_NEGATIVE;
+        local_28 = H_3 != RSMSS_H_BOTH;
     } else {
         local_28 = false;
     }
-    bool _e309 = local_28;
-    if (_e309) {
-        local_29 = tV_3 == RSMSS_TH_DUAL_POSITIVE;
+    bool _e348 = local_28;
+    if (_e348) {
+        local_29 = V_3 != RSMSS_V_BOTH;
     } else {
         local_29 = false;
     }
-    bool _e315 = local_29;
-    if (_e315) {
+    bool _e354 = local_29;
+    if (_e354) {
+        local_30 = tH_3 == RSMSS_TH_POSITIVE_NEGATIVE;
+    } else {
+        local_30 = false;
+    }
+    bool _e360 = local_30;
+    if (_e360) {
+        local_31 = tV_3 == RSMSS_TH_DUAL_POSITIVE;
+    } else {
+        local_31 = false;
+    }
+    bool _e366 = local_31;
+    if (_e366) {
         if (H_3 == RSMSS_H_LEFT) {
             return RsmssResult {metal::clamp(1.0 - px, 0.0, 1.0), 29u};
         }
@@ -564,30 +591,30 @@ RsmssResult rsmss_key_case(
         return RsmssResult {0.0, 29u};
     }
     if (b_3 == RSMSS_B_EXITING) {
-        local_30 = H_3 != RSMSS_H_BOTH;
-    } else {
-        local_30 = false;
-    }
-    bool _e342 = local_30;
-    if (_e342) {
-        local_31 = V_3 != RSMSS_V_BOTH;
-    } else {
-        local_31 = false;
-    }
-    bool _e348 = local_31;
-    if (_e348) {
-        local_32 = tH_3 == RSMSS_TH_DUAL_POSITIVE;
+        local_32 = H_3 != RSMSS_H_BOTH;
     } else {
         local_32 = false;
     }
-    bool _e354 = local_32;
-    if (_e354) {
-        local_33 = tV_3 == RSMSS_TH_POSITIVE_NEGATIVE;
+    bool _e393 = local_32;
+    if (_e393) {
+        local_33 = V_3 != RSMSS_V_BOTH;
     } else {
         local_33 = false;
     }
-    bool _e360 = local_33;
-    if (_e360) {
+    bool _e399 = local_33;
+    if (_e399) {
+        local_34 = tH_3 == RSMSS_TH_DUAL_POSITIVE;
+    } else {
+        local_34 = false;
+    }
+    bool _e405 = local_34;
+    if (_e405) {
+        local_35 = tV_3 == RSMSS_TH_POSITIVE_NEGATIVE;
+    } else {
+        local_35 = false;
+    }
+    bool _e411 = local_35;
+    if (_e411) {
         if (V_3 == RSMSS_V_BOTTOM) {
             return RsmssResult {metal::clamp(py, 0.0, 1.0), 28u};
         }
@@ -597,127 +624,100 @@ RsmssResult rsmss_key_case(
         return RsmssResult {0.0, 28u};
     }
     if (b_3 == RSMSS_B_EXITING) {
-        local_34 = H_3 != RSMSS_H_BOTH;
-    } else {
-        local_34 = false;
-    }
-    bool _e387 = local_34;
-    if (_e387) {
-        local_35 = V_3 != RSMSS_V_BOTH;
-    } else {
-        local_35 = false;
-    }
-    bool _e393 = local_35;
-    if (_e393) {
-        local_36 = H_3 != RSMSS_H_NONE;
+        local_36 = H_3 != RSMSS_H_BOTH;
     } else {
         local_36 = false;
     }
-    bool _e399 = local_36;
-    if (_e399) {
-        local_37 = V_3 == RSMSS_V_NONE;
+    bool _e438 = local_36;
+    if (_e438) {
+        local_37 = V_3 != RSMSS_V_BOTH;
     } else {
         local_37 = false;
     }
-    bool _e405 = local_37;
-    if (_e405) {
+    bool _e444 = local_37;
+    if (_e444) {
+        local_38 = H_3 != RSMSS_H_NONE;
+    } else {
+        local_38 = false;
+    }
+    bool _e450 = local_38;
+    if (_e450) {
+        local_39 = V_3 == RSMSS_V_NONE;
+    } else {
+        local_39 = false;
+    }
+    bool _e456 = local_39;
+    if (_e456) {
         float F31_2 = (H_3 == RSMSS_H_LEFT) ? (dV - px) : ((px + dV) - 1.0);
         return RsmssResult {metal::clamp(F31_2, 0.0, 1.0), 31u};
     }
     if (b_3 == RSMSS_B_EXITING) {
-        local_38 = H_3 != RSMSS_H_BOTH;
-    } else {
-        local_38 = false;
-    }
-    bool _e425 = local_38;
-    if (_e425) {
-        local_39 = V_3 != RSMSS_V_BOTH;
-    } else {
-        local_39 = false;
-    }
-    bool _e431 = local_39;
-    if (_e431) {
-        local_40 = H_3 == RSMSS_H_NONE;
+        local_40 = H_3 != RSMSS_H_BOTH;
     } else {
         local_40 = false;
     }
-    bool _e437 = local_40;
-    if (_e437) {
-        local_41 = V_3 != RSMSS_V_NONE;
+    bool _e476 = local_40;
+    if (_e476) {
+        local_41 = V_3 != RSMSS_V_BOTH;
     } else {
         local_41 = false;
     }
-    bool _e443 = local_41;
-    if (_e443) {
+    bool _e482 = local_41;
+    if (_e482) {
+        local_42 = H_3 == RSMSS_H_NONE;
+    } else {
+        local_42 = false;
+    }
+    bool _e488 = local_42;
+    if (_e488) {
+        local_43 = V_3 != RSMSS_V_NONE;
+    } else {
+        local_43 = false;
+    }
+    bool _e494 = local_43;
+    if (_e494) {
         float F30_3 = (V_3 == RSMSS_V_BOTTOM) ? ((py + dH) - 1.0) : (dH - py);
         return RsmssResult {metal::clamp(F30_3, 0.0, 1.0), 30u};
     }
     if (b_3 == RSMSS_B_ENTERING) {
         if (!((H_3 == RSMSS_H_RIGHT))) {
-            local_43 = H_3 == RSMSS_H_LEFT;
-        } else {
-            local_43 = true;
-        }
-        bool _e468 = local_43;
-        local_42 = _e468;
-    } else {
-        local_42 = false;
-    }
-    bool _e470 = local_42;
-    if (_e470) {
-        if (!((V_3 == RSMSS_V_TOP))) {
-            local_45 = V_3 == RSMSS_V_BOTTOM;
+            local_45 = H_3 == RSMSS_H_LEFT;
         } else {
             local_45 = true;
         }
-        bool _e481 = local_45;
-        local_44 = _e481;
+        bool _e519 = local_45;
+        local_44 = _e519;
     } else {
         local_44 = false;
     }
-    bool _e483 = local_44;
-    if (_e483) {
-        local_46 = !(domH_3);
+    bool _e521 = local_44;
+    if (_e521) {
+        if (!((V_3 == RSMSS_V_TOP))) {
+            local_47 = V_3 == RSMSS_V_BOTTOM;
+        } else {
+            local_47 = true;
+        }
+        bool _e532 = local_47;
+        local_46 = _e532;
     } else {
         local_46 = false;
     }
-    bool _e488 = local_46;
-    if (_e488) {
-        local_47 = !(domV_3);
-    } else {
-        local_47 = false;
-    }
-    bool _e493 = local_47;
-    if (_e493) {
-        float F22_ = (V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH);
-        return RsmssResult {metal::clamp(F22_, 0.0, 1.0), 18u};
-    }
-    if (b_3 == RSMSS_B_EXITING) {
-        local_48 = H_3 == RSMSS_H_BOTH;
+    bool _e534 = local_46;
+    if (_e534) {
+        local_48 = !(domH_3);
     } else {
         local_48 = false;
     }
-    bool _e515 = local_48;
-    if (_e515) {
-        local_49 = V_3 == RSMSS_V_NONE;
+    bool _e539 = local_48;
+    if (_e539) {
+        local_49 = !(domV_3);
     } else {
         local_49 = false;
     }
-    bool _e521 = local_49;
-    if (_e521) {
-        uint _e522 = rsmss_fetch_d_cb_h(site_10, umbrage_out, umbrage_fetched, _buffer_sizes);
-        if (_e522 == RSMSS_H_NONE) {
-            return RsmssResult {metal::clamp(dV, 0.0, 1.0), 13u};
-        }
-        if (_e522 == RSMSS_H_LEFT) {
-            float A_h = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? (1.0 - px) : (dV - px);
-            return RsmssResult {metal::clamp(A_h, 0.0, 1.0), 13u};
-        }
-        if (_e522 == RSMSS_H_RIGHT) {
-            float B_h = (tV_3 == RSMSS_TH_DUAL_POSITIVE) ? px : ((dV + px) - 1.0);
-            return RsmssResult {metal::clamp(B_h, 0.0, 1.0), 13u};
-        }
-        return RsmssResult {0.0, 13u};
+    bool _e544 = local_49;
+    if (_e544) {
+        float F22_ = (V_3 == RSMSS_V_BOTTOM) ? ((2.0 - py) - dH) : ((1.0 + py) - dH);
+        return RsmssResult {metal::clamp(F22_, 0.0, 1.0), 18u};
     }
     if (b_3 == RSMSS_B_ENTERING) {
         if (!((H_3 == RSMSS_H_RIGHT))) {

@@ -1,11 +1,13 @@
 //! `umbrage build`: tables to generated files.
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::plan::{self, PlanArgument};
 use super::report::{Format, Report};
-use super::{Outcome, Result, levels, parse_target};
+use super::watch::Watched;
+use super::{Error, Outcome, Result, levels, parse_target};
 use crate::build::{self, Built, Options, Request};
 use crate::emit::Target;
 use crate::program::Program;
@@ -40,6 +42,10 @@ pub(super) struct Arguments {
     /// rust_bytemuck, rust_wgpu
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
+    /// Build again whenever a table, a profile or a tuned choice changes, until interrupted. While there are errors,
+    /// what was generated before stays
+    #[arg(long)]
+    watch: bool,
     #[command(flatten)]
     levels: levels::LevelArguments,
 }
@@ -47,19 +53,43 @@ pub(super) struct Arguments {
 /// Builds every table. Nothing is written unless all of them are right.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let request = arguments.request();
-    let batch = build::run(&request);
+    if !arguments.watch {
+        return once(arguments, &request, report).map(|(outcome, _)| outcome);
+    }
+    let mut watched = Watched::new(request.paths.iter().chain(&request.profiles).chain(&request.tuned).cloned());
+    loop {
+        let (outcome, inputs) = match once(arguments, &request, report) {
+            Err(Error::Failure(failure)) => {
+                report.failure(&failure);
+                (Outcome::Failed, BTreeSet::new())
+            }
+            done => done?,
+        };
+        if report.format == Format::Human {
+            let mut out = io::stdout().lock();
+            let kept = if outcome == Outcome::Failed { "what was generated before stays; " } else { "" };
+            writeln!(out, "{kept}waiting for changes (Ctrl+C ends this)")?;
+            out.flush()?;
+        }
+        watched.wait(&inputs);
+    }
+}
+
+/// Builds every table. Says how that went, and on which files it depends.
+fn once(arguments: &Arguments, request: &Request, report: &Report) -> Result<(Outcome, BTreeSet<PathBuf>)> {
+    let batch = build::run(request);
     for message in &batch.messages {
         report.failure(message);
     }
     if batch.failed() {
-        return Ok(Outcome::Failed);
+        return Ok((Outcome::Failed, batch.inputs));
     }
     let files = batch.files();
     let written = build::write(&arguments.output, &files)?;
     if report.format == Format::Human {
         summary(&batch.tables, &request.options, files.len(), written, arguments)?;
     }
-    Ok(if batch.warned() { Outcome::Findings } else { Outcome::Clean })
+    Ok((if batch.warned() { Outcome::Findings } else { Outcome::Clean }, batch.inputs))
 }
 
 impl Arguments {

@@ -75,6 +75,9 @@ fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, wa
     }
     let failure = Failure { source: program.source.clone(), diagnostics: found.open };
     let outcome = show(out, report, &failure)?;
+    if report.format == Format::Json {
+        out.write_all(report::acknowledged_lines(&failure.source, &found.acknowledged).as_bytes())?;
+    }
     if report.format == Format::Human {
         let verdict = match outcome {
             Outcome::Clean => "ok   ",

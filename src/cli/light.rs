@@ -49,7 +49,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "160x90", value_parser = size)]
     size: (u32, u32),
     /// Largest error of the border of visibility and of the lobes in a cell: e_r
-    #[arg(long, value_name = "RADIANS", default_value = "0.1", value_parser = threshold)]
+    #[arg(long, value_name = "RADIANS", default_value = "0.1", value_parser = threshold, allow_negative_numbers = true)]
     threshold: f64,
     /// What divides the directions and evaluates the tables
     #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]

@@ -12,18 +12,21 @@ mod bench;
 mod build;
 mod check;
 mod columns;
+mod completions;
 mod csv_input;
 #[cfg(feature = "gpu")]
 mod diff;
 mod errata;
 mod eval;
 mod explain;
+mod fmt;
 #[cfg(feature = "render")]
 mod frame;
 mod json_input;
 mod levels;
 #[cfg(all(feature = "render", feature = "report"))]
 mod light;
+mod new;
 mod output;
 mod plan;
 mod profile;
@@ -40,8 +43,11 @@ mod scenes;
 mod stabilise;
 #[cfg(feature = "report")]
 mod table_report;
+#[cfg(test)]
+mod tests;
 #[cfg(feature = "gpu")]
 mod tune;
+mod watch;
 mod why;
 
 use std::io;
@@ -116,6 +122,14 @@ enum Command {
     /// Measure every plan of a table on this device, and keep the best
     #[cfg(feature = "gpu")]
     Tune(tune::Arguments),
+    /// Lay out tables: columns aligned, expressions spaced
+    Fmt(fmt::Arguments),
+    /// Write a table to start from, and the build script that compiles it
+    New(new::Arguments),
+    /// Print a script that lets a shell complete command lines
+    Completions(completions::CompletionArguments),
+    /// Print the manual as man pages
+    Man(completions::ManArguments),
 }
 
 /// How a command ended that was able to do its work.
@@ -207,6 +221,10 @@ pub fn main() -> ExitCode {
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),
+        Command::Fmt(arguments) => fmt::run(&arguments, &report),
+        Command::New(arguments) => new::run(&arguments, &report),
+        Command::Completions(arguments) => completions::completions(&arguments),
+        Command::Man(arguments) => completions::man(&arguments, &report),
     };
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,

@@ -74,6 +74,16 @@ pub(super) fn lines(source: &Source, diagnostics: &[Diagnostic]) -> String {
     diagnostics.iter().map(|diagnostic| format!("{}\n", object(source, diagnostic))).collect()
 }
 
+/// Findings that a table acknowledges, as JSON, each with the reason that it gives.
+pub(super) fn acknowledged_lines(source: &Source, findings: &[(Diagnostic, String)]) -> String {
+    let line = |(finding, reason): &(Diagnostic, String)| {
+        let mut object = object(source, finding);
+        object["acknowledged"] = json!(reason);
+        format!("{object}\n")
+    };
+    findings.iter().map(line).collect()
+}
+
 fn object(source: &Source, diagnostic: &Diagnostic) -> Value {
     let label = |label: &diag::Label| {
         let (line, column) = source.line_column(label.span.start);

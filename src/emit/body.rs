@@ -193,10 +193,13 @@ impl<'a, 'p> Body<'a, 'p> {
         let (ident, ty) = self.names.fetched(self.plan.program, input);
         let nothing = match ty {
             Type::Bool => "false".to_owned(),
-            Type::Float => self.dialect.number(0.0),
+            Type::Float => self.dialect.number(self.plan.program.inputs[input.index()].least()),
             _ => self.dialect.uint(0),
         };
         self.text.line(self.dialect.variable(&ty, &ident, &nothing, self.prefix));
+        if self.plan.pool.truth(condition) == Some(false) {
+            return;
+        }
         let mut locals = self.computed_constants(&[], &[condition]);
         self.operands(condition, &mut locals);
         let condition = self.condition(condition, &locals);

@@ -11,7 +11,8 @@ use crate::emit::harness::{self, Entry, Layout, WORKGROUP};
 use crate::emit::lookup_words;
 use crate::program::Output;
 
-/// The pipeline, with `$` for what depends on the table.
+/// The pipeline, with `$` for what depends on the table. Lines that end in `//F` are for
+/// tables that fetch, those in `//L` for plans that read a lookup.
 const PIPELINE: &str = include_str!("host_wgpu.rs.in");
 
 /// Writes the structure of fetched inputs, if any, and the pipeline.
@@ -31,7 +32,7 @@ pub(super) fn write(side: &Side<'_, '_>, text: &mut Text) {
     }
     let keep = |line: &&str| {
         let (has_fetched, has_lookup) = (!fetched.is_empty(), side.has_lookup());
-        !(line.contains("//F") && !has_fetched || line.contains("//L") && !has_lookup)
+        (has_fetched || !line.contains("//F")) && (has_lookup || !line.contains("//L"))
     };
     let source: String = PIPELINE.lines().filter(keep).fold(String::new(), |mut all, line| {
         let line = line.trim_end_matches("//F").trim_end_matches("//L").trim_end();

@@ -191,7 +191,7 @@ mod tests {
         let settings = Settings::with_threshold(0.03);
         let surfaces = surfaces(&scene, width, height);
         let shaded = shade(&scene, &tables, &settings, &surfaces).unwrap_or_else(|e| panic!("{e}"));
-        let directions = directions(&scene.lobes, 96);
+        let directions = directions(&scene.lobes, 160);
         let (mut error, mut whole) = (0.0, 0.0);
         for (surface, light) in surfaces.iter().zip(&shaded.light) {
             let (Some(surface), Some(light)) = (surface, light) else { continue };

@@ -156,6 +156,19 @@ impl<'p> Builder<'p> {
         self.steps.len()
     }
 
+    /// Whether a test or a result mentions an input.
+    pub(super) fn mentions(&self, input: InputId) -> bool {
+        self.steps.iter().any(|step| match step {
+            Step::Test { condition, .. } | Step::Gather { condition, .. } => {
+                self.pool.cond_facts(*condition).inputs.contains(input)
+            }
+            Step::Leaf(leaf) => leaf.values.iter().any(|value| self.pool.expr_facts(*value).inputs.contains(input)),
+            // Another input may stand behind one that is mentioned.
+            Step::Orbit { .. } => true,
+            Step::Fetch { .. } | Step::Switch { .. } | Step::Coefficients { .. } => false,
+        })
+    }
+
     /// A step that was made.
     pub(super) fn step(&self, id: StepId) -> &Step {
         &self.steps[id.0 as usize]
@@ -348,19 +361,20 @@ impl<'p> Builder<'p> {
         }
     }
 
-    /// Parts that need no fetch are tested together; otherwise the first part comes alone.
+    /// The parts that need no fetch are tested first, together, wherever they stand: they may make
+    /// the fetches of others needless. Without such parts the first one comes alone.
     fn split(
         &mut self,
         parts: &[CondId],
         known: &Knowledge,
         join: fn(&mut Pool, Vec<CondId>) -> CondId,
     ) -> (CondId, CondId) {
-        let free = parts
-            .iter()
-            .take_while(|part| self.missing(self.pool.cond_facts(**part).inputs, known).is_empty())
-            .count()
-            .clamp(1, parts.len() - 1);
-        (join(&mut self.pool, parts[..free].to_vec()), join(&mut self.pool, parts[free..].to_vec()))
+        let needs_none = |part: &CondId| self.missing(self.pool.cond_facts(*part).inputs, known).is_empty();
+        let (mut first, mut rest): (Vec<CondId>, Vec<CondId>) = parts.iter().partition(|part| needs_none(part));
+        if first.is_empty() {
+            first.push(rest.remove(0));
+        }
+        (join(&mut self.pool, first), join(&mut self.pool, rest))
     }
 
     fn fetch(

@@ -15,7 +15,7 @@ use crate::program::claims::decide;
 use crate::program::{CondId, LevelKind, LevelSet, Pool, Program};
 
 /// Tests before the chains of a nested plan.
-const NESTED: usize = 2;
+pub(super) const NESTED: usize = 2;
 
 /// The guards, in the best order.
 pub(super) fn ordered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
@@ -50,14 +50,14 @@ pub(super) fn nested<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
 }
 
 /// A chain of what may be taken in some states, given by their place in the setting.
-pub(super) struct Chain {
-    pub(super) rows: Guarded,
-    pub(super) cost: f64,
-    pub(super) bound: f64,
+struct Chain {
+    rows: Guarded,
+    cost: f64,
+    bound: f64,
 }
 
 impl Chain {
-    pub(super) fn new(pool: &mut Pool, setting: &Setting<'_, '_>, states: &[usize], known: &Knowledge) -> Result<Self> {
+    fn new(pool: &mut Pool, setting: &Setting<'_, '_>, states: &[usize], known: &Knowledge) -> Result<Self> {
         let (tests, rows) = tests(setting, states)?;
         let (order, bound) = tests.best();
         let guards = &setting.program.rows;
@@ -104,7 +104,8 @@ fn tests(setting: &Setting<'_, '_>, states: &[usize]) -> Result<(Tests, Vec<usiz
     Ok((tests, rows))
 }
 
-fn nest(
+/// Tests that decide most, so many of them one below the other, then chains.
+pub(super) fn nest(
     builder: &mut Builder<'_>,
     setting: &Setting<'_, '_>,
     states: &[usize],
@@ -220,6 +221,25 @@ mod tests {
         let printer = Printer { pool: &plan.pool, inputs: &program.inputs };
         assert_eq!(printer.cond(first), "b == exiting");
         assert_eq!(printer.cond(second), "H == both || V == both");
+    }
+
+    /// The orders that are built for what was counted are the best there are.
+    #[test]
+    fn the_orders_of_the_published_tables_are_optimal() {
+        for name in ["smsr", "rsmss"] {
+            let program = Program::read(format!("tables/{name}.ron")).unwrap_or_else(|e| panic!("{e}"));
+            let file = format!("profiles/{name}.ron");
+            let profile = crate::profile::read(file.as_ref()).unwrap_or_else(|e| panic!("{e}"));
+            let fitted = crate::profile::fit(&program, profile, &file).unwrap_or_else(|e| panic!("{e}"));
+            let weights = fitted.weights(&program, &file).unwrap_or_else(|e| panic!("{e}"));
+            for shape in [Shape::Ordered, Shape::Nested] {
+                let options = crate::plan::PlanOptions { shape, weights: Some(&weights), assume: false };
+                let plan = Plan::new(&program, options).unwrap_or_else(|e| panic!("{e}"));
+                let certificate = plan.certificate.expect("ordered plans have one");
+                assert!(certificate.is_optimal(), "{name} {shape}: {certificate}");
+                println!("{name} {shape}: {certificate}");
+            }
+        }
     }
 
     #[test]

@@ -5,17 +5,17 @@
 //! every branch pays for all of them always. Here each input has one place, and
 //! the condition under which the table needs it: the states in which it does,
 //! as few boxes of levels, and what other fetched inputs and comparisons have
-//! to say. What follows finds everything fetched that it looks at.
+//! to say. What follows may look at an input that was not fetched, and finds its
+//! first level or least number; the proof checks that nothing depends on it there.
 
 use std::collections::HashMap;
 
 use super::build::{Arms, Builder, Result};
-use super::chain::Chain;
 use super::key::KeyLayout;
 use super::knowledge::Knowledge;
 use super::order::Certificate;
 use super::setting::Setting;
-use super::{Plan, Shape, Step, StepId};
+use super::{Plan, Shape, Step, StepId, chain};
 use crate::program::claims::decide;
 use crate::program::{Cond, CondId, InputId, InputSet, LevelSet, Pool, Program};
 
@@ -25,27 +25,27 @@ const MAX_STEPS: usize = 2000;
 /// Most parts of the condition of one fetch.
 const MAX_PARTS: usize = 64;
 
-/// The guards in the best order, behind all fetches.
+/// The first tests and chains of `nested`, behind all fetches.
 pub(super) fn gathered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     if program.fetched.is_empty() {
-        return Err("it fetches nothing; use `ordered`".to_owned());
+        return Err("it fetches nothing; use `nested`".to_owned());
     }
     let mut builder = Builder::new(program);
     let needs = needs(&mut builder, setting)?;
     let everywhere: Vec<usize> = (0..setting.states.len()).collect();
     let known = Knowledge::none(program).with_fetched(program.fetched);
-    let chain = Chain::new(&mut builder.pool, setting, &everywhere, &known)?;
-    let root = builder.rows(&chain.rows, &known)?;
+    let mut certificate = Certificate { written: chain::written(setting)?, planned: 0.0, bound: 0.0 };
+    let root = chain::nest(&mut builder, setting, &everywhere, &known, chain::NESTED, &mut certificate)?;
     let root = in_front(&mut builder, &needs, root)?;
     let mut plan = builder.finish(Shape::Gathered, KeyLayout::new(program)?, Vec::new(), root);
-    let written = super::chain::written(setting)?;
-    plan.certificate = Some(Certificate { written, planned: chain.cost, bound: chain.bound });
-    plan.notes.push(format!("{} inputs are fetched, each at one place", needs.len()));
+    plan.certificate = Some(certificate);
+    let fetched = needs.iter().filter(|(_, condition)| plan.pool.truth(*condition) != Some(false)).count();
+    plan.notes.push(format!("{fetched} inputs are fetched, each at one place"));
     Ok(plan)
 }
 
-/// The inputs that are fetched anywhere and when they are needed, each after those that its condition mentions.
+/// The fetched inputs and when they are needed, each after those that its condition mentions.
 pub(super) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Result<Vec<(InputId, CondId)>> {
     let program = setting.program;
     if setting.states.len() > MAX_STATES {
@@ -102,9 +102,7 @@ pub(super) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Res
             let inside = builder.pool.or(boxes);
             terms.push(builder.pool.and([inside, condition]));
         }
-        if !terms.is_empty() {
-            needs.push((input, builder.pool.or(terms)));
-        }
+        needs.push((input, builder.pool.or(terms)));
     }
     sorted(program, &builder.pool, needs)
 }
@@ -112,6 +110,10 @@ pub(super) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Res
 /// The fetches, then `next`.
 pub(super) fn in_front(builder: &mut Builder<'_>, needs: &[(InputId, CondId)], mut next: StepId) -> Result<StepId> {
     for (input, condition) in needs.iter().rev() {
+        // What is never needed has to be there only if it is mentioned.
+        if builder.pool.truth(*condition) == Some(false) && !builder.mentions(*input) {
+            continue;
+        }
         next = builder.push(Step::Gather { input: *input, condition: *condition, next })?;
     }
     Ok(next)

@@ -49,7 +49,7 @@ pub enum Shape {
     Ordered,
     /// A few tests that decide many guards, then chains in the best order: the published advice.
     Nested,
-    /// Every fetch at one place, then the chain in the best order.
+    /// Every fetch at one place, then a few tests and chains as in `Nested`.
     Gathered,
     /// A graph of tests on inputs with the least expected number of them.
     Tree,
@@ -163,8 +163,8 @@ pub enum Step {
         /// Where to go then.
         next: StepId,
     },
-    /// Fetches an input if a condition holds, and goes on either way. Only what is
-    /// fetched is looked at afterwards; such steps come before all others.
+    /// Fetches an input if a condition holds, and goes on either way, with the first level or
+    /// the least number in its place. Such steps come before all others.
     Gather {
         /// The input.
         input: InputId,

@@ -4,15 +4,16 @@
 //! should stand in front: the expected number of tests is the sum of weight
 //! times place. Some must stay behind others; then this is the scheduling of
 //! unit jobs with precedence on one machine, which is hard in general and
-//! small here. A search over sets of tests that can stand in front, with the
-//! order that ignores precedence as its bound, finds the optimum or says by
-//! how much it may have missed it.
+//! small here. Many pairs can be decided beforehand; then dynamic programming
+//! over the sets of tests that can stand in front, with the order that ignores
+//! precedence as its bound, finds the optimum or says by how much it may have
+//! missed it.
 
 use std::collections::HashMap;
 use std::fmt;
 
 /// Most sets of tests that the search looks at.
-const MAX_SETS: usize = 1 << 17;
+const MAX_SETS: usize = 1 << 19;
 /// Most tests whose sets fit a mask.
 const MAX_EXACT: usize = 64;
 
@@ -69,11 +70,15 @@ impl Tests {
             let bound = self.relaxed(|_| true) + self.passed * self.weights.len() as f64;
             return (greedy, bound);
         }
-        let mut search = Search::new(self, &greedy);
-        search.run();
-        let cost = self.cost(&search.best);
-        let bound = if search.complete { cost } else { search.bound.min(cost) };
-        (search.best, bound)
+        let known = self.cost(&greedy);
+        match Search::new(self).run(known) {
+            Ok(better) => {
+                let order = better.unwrap_or(greedy);
+                let cost = self.cost(&order);
+                (order, cost)
+            }
+            Err(bound) => (greedy, bound),
+        }
     }
 
     /// Takes, again and again, the tests that lead most cheaply to much weight.
@@ -135,89 +140,127 @@ impl Ord for Rank {
     }
 }
 
+/// Looks at the sets of tests that can stand in front, the small ones first.
 struct Search<'t> {
     tests: &'t Tests,
-    /// Masks of [`Tests::before`].
+    /// Those that each must stay behind, as masks; all of them, not only the nearest.
     before: Vec<u64>,
+    /// Those that must stay behind each.
+    after: Vec<u64>,
     /// By weight, the heaviest first.
     sorted: Vec<usize>,
-    best: Vec<usize>,
-    best_cost: f64,
-    /// What the cheapest way to each set in front costs.
-    seen: HashMap<u64, f64>,
-    bound: f64,
-    complete: bool,
+}
+
+/// The cheapest way to a set in front.
+#[derive(Clone, Copy)]
+struct Way {
+    cost: f64,
+    last: usize,
 }
 
 impl<'t> Search<'t> {
-    fn new(tests: &'t Tests, greedy: &[usize]) -> Self {
-        let mut sorted: Vec<usize> = (0..tests.weights.len()).collect();
+    fn new(tests: &'t Tests) -> Self {
+        let count = tests.weights.len();
+        let mut sorted: Vec<usize> = (0..count).collect();
         sorted.sort_by(|a, b| tests.weights[*b].total_cmp(&tests.weights[*a]).then(a.cmp(b)));
-        let before = tests.before.iter().map(|before| before.iter().fold(0, |mask, test| mask | 1 << test)).collect();
-        Self {
-            tests,
-            before,
-            sorted,
-            best: greedy.to_vec(),
-            best_cost: tests.cost(greedy),
-            seen: HashMap::new(),
-            bound: f64::INFINITY,
-            complete: true,
+        let mut search = Self { tests, before: vec![0; count], after: vec![0; count], sorted };
+        for (test, before) in tests.before.iter().enumerate() {
+            before.iter().for_each(|first| search.put(*first, test));
+        }
+        search.decide_pairs();
+        search
+    }
+
+    /// Lets one test stay before another, with what follows from that.
+    fn put(&mut self, first: usize, then: usize) {
+        let front = self.before[first] | 1 << first;
+        let back = self.after[then] | 1 << then;
+        for test in 0..self.before.len() {
+            if back >> test & 1 == 1 {
+                self.before[test] |= front;
+            }
+            if front >> test & 1 == 1 {
+                self.after[test] |= back;
+            }
         }
     }
 
-    fn run(&mut self) {
-        let mut order = Vec::new();
-        self.extend(0, 0.0, &mut order);
-        if !self.complete {
-            // What was left out is no better than its own bound.
-            self.bound = self.bound.min(self.best_cost);
+    /// Decides between two tests wherever one is no lighter, waits for nothing that the other
+    /// does not wait for, and keeps all those waiting that the other does: exchanging them in an
+    /// order that has them the other way round breaks no precedence and costs nothing.
+    fn decide_pairs(&mut self) {
+        let count = self.before.len();
+        loop {
+            let mut changed = false;
+            for place in 0..count {
+                for other in 0..count {
+                    let (first, then) = (self.sorted[place], self.sorted[other]);
+                    let decided = self.before[then] >> first & 1 == 1 || self.before[first] >> then & 1 == 1;
+                    let heavier = self.tests.weights[first] >= self.tests.weights[then];
+                    if first != then
+                        && !decided
+                        && heavier
+                        && self.before[first] & !self.before[then] == 0
+                        && self.after[then] & !self.after[first] == 0
+                    {
+                        self.put(first, then);
+                        changed = true;
+                    }
+                }
+            }
+            if !changed {
+                return;
+            }
         }
     }
 
-    /// What a beginning costs at least when it is completed.
+    /// What a beginning costs at least when it is completed, all other tests in the order of their weights.
     fn at_least(&self, front: u64, cost: f64, placed: usize) -> f64 {
         let rest = self.sorted.iter().filter(|test| front >> **test & 1 == 0);
         let rest: f64 = rest.zip(placed + 1..).map(|(test, place)| self.tests.weights[*test] * place as f64).sum();
         cost + rest + self.tests.passed * self.tests.weights.len() as f64
     }
 
-    /// Completes a beginning, whose tests are `front`, in every way that may be better than the best.
-    fn extend(&mut self, front: u64, cost: f64, order: &mut Vec<usize>) {
-        let count = self.tests.weights.len();
-        let at_least = self.at_least(front, cost, order.len());
-        if at_least >= self.best_cost - 1e-12 {
-            return;
+    /// The best order, if it costs less than `best` and the sets are few enough to tell; else what any order costs.
+    fn run(&self, best: f64) -> std::result::Result<Option<Vec<usize>>, f64> {
+        let count = self.before.len();
+        let mut layers: Vec<HashMap<u64, Way>> = vec![HashMap::from([(0, Way { cost: 0.0, last: 0 })])];
+        let mut sets = 1;
+        for placed in 0..count {
+            let place = (placed + 1) as f64;
+            let mut next: HashMap<u64, Way> = HashMap::new();
+            let mut least = f64::INFINITY;
+            for (front, way) in &layers[placed] {
+                let at_least = self.at_least(*front, way.cost, placed);
+                least = least.min(at_least);
+                if at_least >= best - 1e-12 {
+                    continue;
+                }
+                for test in (0..count).filter(|test| front >> test & 1 == 0 && self.before[*test] & !front == 0) {
+                    let cost = way.cost + self.tests.weights[test] * place;
+                    let known = next.entry(front | 1 << test).or_insert(Way { cost, last: test });
+                    // Of equally cheap ways the same one whatever the order of the map.
+                    if (cost, test) < (known.cost, known.last) {
+                        *known = Way { cost, last: test };
+                    }
+                }
+            }
+            sets += next.len();
+            if sets > MAX_SETS {
+                // Every order begins with some set of this size, or is no better than the best.
+                return Err(least.min(best));
+            }
+            layers.push(next);
         }
-        if order.len() == count {
-            self.best_cost = at_least;
-            self.best.clone_from(order);
-            return;
+        let mut front = if count == 64 { u64::MAX } else { (1 << count) - 1 };
+        let mut order = Vec::with_capacity(count);
+        for layer in layers[1..].iter().rev() {
+            let Some(way) = layer.get(&front) else { return Ok(None) };
+            order.push(way.last);
+            front &= !(1 << way.last);
         }
-        if self.seen.get(&front).is_some_and(|known| *known <= cost) {
-            return;
-        }
-        if self.seen.len() >= MAX_SETS {
-            self.complete = false;
-            self.bound = self.bound.min(at_least);
-            return;
-        }
-        self.seen.insert(front, cost);
-        let place = (order.len() + 1) as f64;
-        let open: Vec<usize> = self.sorted.iter().copied().filter(|test| front >> test & 1 == 0).collect();
-        let free = |test: &usize| self.before[*test] & !front == 0;
-        let mut ways: Vec<usize> = open.iter().copied().filter(|test| free(test)).collect();
-        // The heaviest of all that is left goes first if it may.
-        if let (Some(heaviest), Some(first)) = (open.first(), ways.first().copied())
-            && self.tests.weights[first] == self.tests.weights[*heaviest]
-        {
-            ways.truncate(1);
-        }
-        for test in ways {
-            order.push(test);
-            self.extend(front | 1 << test, cost + self.tests.weights[test] * place, order);
-            order.pop();
-        }
+        order.reverse();
+        Ok(Some(order))
     }
 }
 

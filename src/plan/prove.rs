@@ -154,6 +154,10 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         normaliser: Normaliser::default(),
         oracle: Oracle::new(program),
         claims: Claims::new(program),
+        fetching: (0..program.rows.len())
+            .filter(|row| !program.pool.cond_facts(program.rows[*row].guard).inputs.and(program.fetched).is_empty())
+            .collect(),
+        absent: InputSet::default(),
         starts: route::starts(plan, &states),
         identical: 0,
         paths: 0,
@@ -232,6 +236,11 @@ struct Prover<'a, 'p> {
     oracle: Oracle,
     /// The rows to look at in each state; `None` to look at all.
     claims: Option<Claims>,
+    /// Rows whose guards fetch, which they may do in states that they do not claim.
+    fetching: Vec<usize>,
+    /// Inputs that the plan declares but has not fetched on this path: code finds their first level
+    /// or least value there. Empty while the program runs.
+    absent: InputSet,
     /// Where the paths of each state begin.
     starts: Vec<StepId>,
     identical: usize,
@@ -245,13 +254,17 @@ struct Run {
     line: Option<usize>,
     values: Vec<ExprId>,
     fetched: InputSet,
+    /// Inputs that are declared and not fetched.
+    absent: InputSet,
 }
 
 impl<'p> Prover<'_, 'p> {
     fn path(&mut self, state: usize) -> Result<(), Box<Counterexample>> {
         let want = self.run_program(state);
         // The plan may ask further questions; they then become part of the path.
-        let got = self.run_plan(state).map_err(|reason| self.differs(reason, &want))?;
+        let got = self.run_plan(state);
+        self.absent = InputSet::default();
+        let got = got.map_err(|reason| self.differs(reason, &want))?;
         self.paths += 1;
         if (want.row, want.line) != (got.row, got.line) {
             let name = |run: &Run| self.name(run);
@@ -267,9 +280,9 @@ impl<'p> Prover<'_, 'p> {
         let mut fetched = want.fetched;
         let values = self.results(&want.values, &mut fetched);
         let want = Run { values, fetched, ..want };
-        let mut looked_at = InputSet::default();
-        let got = Run { values: self.results(&got.values, &mut looked_at), ..got };
-        self.only_fetched(looked_at, got.fetched).map_err(|reason| self.differs(reason, &want))?;
+        self.absent = got.absent;
+        let got = Run { values: self.results(&got.values, &mut InputSet::default()), ..got };
+        self.absent = InputSet::default();
         if let Some(input) = got.fetched.minus(want.fetched).iter().next() {
             let input = &self.plan.program.inputs[input.index()].name;
             return Err(self.differs(format!("the plan fetches `{input}`, which the table does not need here"), &want));
@@ -353,30 +366,36 @@ impl<'p> Prover<'_, 'p> {
     /// The program, by the definition of its meaning.
     fn run_program(&mut self, state: usize) -> Run {
         let program = self.plan.program;
-        let mut fetched = InputSet::default();
-        let mut place = 0;
-        while let Some((index, row)) = self.candidate(state, place) {
-            place += 1;
+        let (mut fetched, absent) = (InputSet::default(), InputSet::default());
+        let mut places = (0, 0);
+        while let Some((index, row)) = self.candidate(state, &mut places) {
             if !self.holds(row.guard, &mut fetched) {
                 continue;
             }
             for (number, line) in row.lines.iter().enumerate() {
                 if self.holds(line.condition, &mut fetched) {
-                    return Run { row: Some(index), line: Some(number), values: line.values.clone(), fetched };
+                    return Run { row: Some(index), line: Some(number), values: line.values.clone(), fetched, absent };
                 }
             }
-            return Run { row: Some(index), line: None, values: program.default.clone(), fetched };
+            return Run { row: Some(index), line: None, values: program.default.clone(), fetched, absent };
         }
-        Run { row: None, line: None, values: program.default.clone(), fetched }
+        Run { row: None, line: None, values: program.default.clone(), fetched, absent }
     }
 
-    /// The rows that are looked at in a state, by their place in the order.
-    fn candidate(&self, state: usize, place: usize) -> Option<(usize, &'p Row)> {
+    /// The next row that is looked at in a state, after so many that claim it and so many that fetch.
+    fn candidate(&self, state: usize, (claimed, fetching): &mut (usize, usize)) -> Option<(usize, &'p Row)> {
         let rows = &self.plan.program.rows;
         let index = match &self.claims {
-            Some(claims) => claims.row(state, place)?,
-            None => place,
+            Some(claims) => match (claims.row(state, *claimed), self.fetching.get(*fetching).copied()) {
+                (Some(row), None) | (None, Some(row)) => row,
+                (Some(row), Some(other)) => row.min(other),
+                (None, None) => return None,
+            },
+            None => *claimed,
         };
+        *fetching += usize::from(self.fetching.get(*fetching) == Some(&index));
+        let is_claim = self.claims.as_ref().is_none_or(|claims| claims.row(state, *claimed) == Some(index));
+        *claimed += usize::from(is_claim);
         rows.get(index).map(|row| (index, row))
     }
 
@@ -404,14 +423,15 @@ impl<'p> Prover<'_, 'p> {
                     if declared.contains(*input) || !plan.program.fetched.contains(*input) {
                         return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
                     }
-                    if self.tested(*condition, fetched, declared)? {
-                        fetched = fetched.or(InputSet::one(*input));
+                    match self.tested(*condition, declared)? {
+                        true => fetched = fetched.or(InputSet::one(*input)),
+                        false => self.absent = self.absent.or(InputSet::one(*input)),
                     }
                     declared = declared.or(InputSet::one(*input));
                     at = *next;
                 }
                 Step::Test { condition, then, other } => {
-                    at = if self.tested(*condition, fetched, declared)? { *then } else { *other };
+                    at = if self.tested(*condition, declared)? { *then } else { *other };
                 }
                 // Other gates are for these.
                 Step::Coefficients { .. } | Step::Orbit { .. } => {
@@ -421,19 +441,16 @@ impl<'p> Prover<'_, 'p> {
                     for value in values {
                         self.only_fetched(plan.pool.expr_facts(*value).inputs, declared)?;
                     }
-                    return Ok(Run { row: *row, line: *line, values: values.clone(), fetched });
+                    return Ok(Run { row: *row, line: *line, values: values.clone(), fetched, absent: self.absent });
                 }
             }
         }
     }
 
-    /// Whether a condition of the plan holds; it may mention what is declared and look at what is fetched.
-    fn tested(&mut self, condition: CondId, fetched: InputSet, declared: InputSet) -> Result<bool, String> {
+    /// Whether a condition of the plan holds, which may mention what is declared.
+    fn tested(&mut self, condition: CondId, declared: InputSet) -> Result<bool, String> {
         self.only_fetched(self.plan.pool.cond_facts(condition).inputs, declared)?;
-        let mut looked_at = InputSet::default();
-        let holds = self.holds(condition, &mut looked_at);
-        self.only_fetched(looked_at, fetched)?;
-        Ok(holds)
+        Ok(self.holds(condition, &mut InputSet::default()))
     }
 
     fn only_fetched(&self, inputs: InputSet, fetched: InputSet) -> Result<(), String> {
@@ -448,6 +465,9 @@ impl<'p> Prover<'_, 'p> {
     fn level(&mut self, input: InputId, fetched: &mut InputSet) -> u8 {
         if !self.plan.program.fetched.contains(input) {
             return self.oracle.levels[input.index()];
+        }
+        if self.absent.contains(input) {
+            return 0;
         }
         *fetched = fetched.or(InputSet::one(input));
         let count = self.plan.program.levels(input).map_or(1, |levels| levels.count());
@@ -561,7 +581,7 @@ impl<'p> Prover<'_, 'p> {
 
     fn resolve_memo(&mut self, expr: ExprId, fetched: &mut InputSet, memo: &mut HashMap<ExprId, ExprId>) -> ExprId {
         let facts = self.pool.expr_facts(expr);
-        if !facts.selects {
+        if !facts.selects && facts.inputs.and(self.absent).is_empty() {
             *fetched = fetched.or(facts.inputs.and(self.plan.program.fetched));
             return expr;
         }
@@ -569,6 +589,10 @@ impl<'p> Prover<'_, 'p> {
             return *done;
         }
         let result = match self.pool.node(expr) {
+            Node::Input(input) if self.absent.contains(input) => {
+                let least = self.plan.program.inputs[input.index()].least();
+                self.pool.number(least)
+            }
             Node::Const(_) | Node::Result | Node::Input(_) => expr,
             Node::Unary(op, a) => {
                 let a = self.resolve_memo(a, fetched, memo);
@@ -629,8 +653,8 @@ mod tests {
     fn broken_plans_are_refused_with_a_counterexample() {
         for (table, stride) in TABLES.into_iter().zip([1, 3]) {
             let program = program(table);
-            for shape in [Shape::Ladder, Shape::Switch(LookupPlace::Constants)] {
-                let plan = Plan::new(&program, shape).unwrap_or_else(|e| panic!("{e}"));
+            for shape in [Shape::Ladder, Shape::Gathered, Shape::Switch(LookupPlace::Constants)] {
+                let Ok(plan) = Plan::new(&program, shape) else { continue };
                 let (mut refused, mut harmless) = (0, 0);
                 for step in (0..plan.steps.len()).step_by(stride) {
                     let mut broken = plan.clone();
@@ -667,6 +691,29 @@ mod tests {
                 assert!(refused > 0 && harmless <= 2, "{table} {shape}: {refused} refused, {harmless} harmless");
             }
         }
+    }
+
+    /// Seventeen comparisons in a value decide between more paths than a state may have. It takes a
+    /// fetched input as well, so that all of them are gone through.
+    #[test]
+    fn what_has_too_many_paths_is_not_proved() {
+        let parts: Vec<String> = (1..=17).map(|i| format!("(if x < {i} * y {{ {i} }} else {{ 0.5 }})")).collect();
+        let text = format!(
+            r#"Table(language: 1, name: "t", hit_policy: First,
+                inputs: {{"x": Range(from: 0, to: 1), "y": Range(from: 0, to: 1), "far": Range(from: 0, to: 1, fetched: (cost: 1))}},
+                output: Number(), cases: [Case(id: 1, when: "x < 2", value: "far + {}")], default: 0)"#,
+            parts.join(" + ")
+        );
+        let table =
+            crate::table::Table::parse(crate::diag::Source::new("t.ron", text)).unwrap_or_else(|e| panic!("{e}"));
+        let program = Program::check(&table).unwrap_or_else(|e| panic!("{e}"));
+        let failure = Plan::proved(&program, Shape::Ladder).expect_err("there are too many paths").to_string();
+        assert!(
+            failure.contains("error[U0604]: t.ron: the plan `ladder` of `t` has too many paths to be proved"),
+            "{failure}"
+        );
+        assert!(failure.contains("a state may have 65536 paths"), "{failure}");
+        assert!(failure.contains("make a comparison an input of the table"), "{failure}");
     }
 
     #[test]

@@ -103,7 +103,9 @@ impl Prover<'_, '_> {
         machine.take_looked_at();
         let (row, line, want) = machine.run_to_line();
         let needed = machine.take_looked_at();
-        let got = self.run(machine, state, turn).map_err(|reason| (row, reason))?;
+        let got = self.run(machine, state, turn);
+        machine.set_absent(InputSet::default());
+        let got = got.map_err(|reason| (row, reason))?;
         self.proof.paths += 1;
         if self.plan.shape.reports_case() && (row, line) != (got.row, got.line) {
             let name =
@@ -173,9 +175,7 @@ impl Prover<'_, '_> {
                 }
                 Step::Test { condition, then, other } => {
                     self.only_fetched(self.behind(turn, view, plan.pool.cond_facts(*condition).inputs), declared)?;
-                    let holds = machine.holds(*condition, view);
-                    self.only_fetched(machine.take_looked_at(), fetched)?;
-                    at = if holds { *then } else { *other };
+                    at = if machine.holds(*condition, view) { *then } else { *other };
                 }
                 Step::Fetch { input, next } => {
                     if declared.contains(*input) || view.symmetry.is_some() || !plan.program.fetched.contains(*input) {
@@ -190,12 +190,11 @@ impl Prover<'_, '_> {
                         return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
                     }
                     self.only_fetched(plan.pool.cond_facts(*condition).inputs, declared)?;
-                    let holds = machine.holds(*condition, view);
-                    self.only_fetched(machine.take_looked_at(), fetched)?;
-                    if holds {
+                    if machine.holds(*condition, view) {
                         fetched = fetched.or(InputSet::one(*input));
                     }
                     declared = declared.or(InputSet::one(*input));
+                    machine.set_absent(declared.minus(fetched));
                     at = *next;
                 }
                 Step::Leaf(leaf) => {
@@ -207,7 +206,6 @@ impl Prover<'_, '_> {
                         Some(turn) => turn.back(machine, &leaf.values),
                         None => leaf.values.iter().map(|value| machine.resolve(*value, view)).collect(),
                     };
-                    self.only_fetched(machine.take_looked_at(), fetched)?;
                     return Ok(Run { row: leaf.row, line: leaf.line, values, fetched });
                 }
             }

@@ -62,7 +62,7 @@ fn guard(random: &mut Random, depth: usize) -> String {
         0 => format!("side == {}", pick(random, &SIDES)),
         1 => format!("kind != {}", pick(random, &KINDS)),
         2 => pick(random, &["flag", "!near", "near", "side in {left, right}"]).to_owned(),
-        3 => pick(random, &["flag", "kind == open", "x < 0.5"]).to_owned(),
+        3 => pick(random, &["flag", "kind == open", "x < 0.5", "far == both"]).to_owned(),
         4 => format!("({} || {})", guard(random, depth - 1), guard(random, depth - 1)),
         _ => format!("({} && {})", guard(random, depth - 1), guard(random, depth - 1)),
     }
@@ -160,6 +160,12 @@ impl<'a, 'p> Executor<'a, 'p> {
                     if interpreter.holds(*condition).expect("given") {
                         assert!(!fetched.contains(*input), "fetched twice");
                         fetched = fetched.or(InputSet::one(*input));
+                    } else {
+                        let declared = &plan.program.inputs[input.index()];
+                        point[input.index()] = Some(match declared.domain {
+                            Domain::Discrete(_) => Value::Level(0),
+                            Domain::Continuous { lo, .. } => Value::Number(lo),
+                        });
                     }
                     at = *next;
                 }
@@ -261,11 +267,25 @@ fn every_plan_of_random_tables_is_proved_and_right() {
     assert!(planned.iter().all(|count| *count >= 30), "{planned:?}");
 }
 
-/// One coefficient, one entry of the lookup, one leaf, one order.
+/// A plan takes the case that the interpreter takes, at a point of each state.
+fn agrees(plan: &Plan<'_>, random: &mut Random) {
+    if !plan.shape.reports_case() {
+        return;
+    }
+    let executor = Executor::new(plan);
+    let mut interpreter = Interpreter::<f32>::new(plan.program);
+    for state in 0..plan.program.states.count() {
+        let point = point(random, plan.program, state);
+        let want = interpreter.evaluate(&point).unwrap_or_else(|e| panic!("{e:?}"));
+        assert_eq!(executor.run(&point).0, want.row, "{} at {point:?}", plan.shape);
+    }
+}
+
+/// One coefficient, one entry of the lookup, one leaf, one order, one fetch.
 #[test]
 fn changed_plans_of_random_tables_are_refused() {
     let mut random = Random::new(11);
-    let mut refused = [0; 4];
+    let mut refused = [0; 7];
     for _ in 0..40 {
         let program = program(&table(&mut random));
         if let Ok(plan) = Plan::new(&program, Shape::Coefficients) {
@@ -291,7 +311,7 @@ fn changed_plans_of_random_tables_are_refused() {
                 refused[1] += usize::from(broken.prove().is_err());
             }
         }
-        for shape in [Shape::Ordered, Shape::Nested, Shape::Tree] {
+        for shape in [Shape::Ordered, Shape::Nested, Shape::Tree, Shape::Gathered, Shape::Orbit] {
             let Ok(plan) = Plan::new(&program, shape) else { continue };
             for step in plan.reachable() {
                 let mut broken = plan.clone();
@@ -303,8 +323,29 @@ fn changed_plans_of_random_tables_are_refused() {
                         refused[2] += usize::from(broken.prove().is_err());
                     }
                     Step::Test { condition, then, other } if then != other => {
+                        // Two tests that follow each other, exchanged: refused, or it made no difference.
+                        if let Step::Test { condition: second, then: there, other: rest } = *plan.step(other) {
+                            let mut exchanged = plan.clone();
+                            let behind = StepId(exchanged.steps.len() as u32);
+                            exchanged.steps.push(Step::Test { condition, then, other: rest });
+                            exchanged.steps[place] = Step::Test { condition: second, then: there, other: behind };
+                            match exchanged.clone().prove() {
+                                Err(_) => refused[6] += 1,
+                                Ok(_) => agrees(&exchanged, &mut random),
+                            }
+                        }
                         broken.steps[place] = Step::Test { condition, then: other, other: then };
                         refused[3] += usize::from(broken.prove().is_err());
+                    }
+                    Step::Gather { input, condition, next } => {
+                        // Never, always, and where it is not needed.
+                        let (always, not) = (broken.pool.always(true), broken.pool.not(condition));
+                        broken.steps[place] = broken.step(next).clone();
+                        refused[4] += usize::from(broken.clone().prove().is_err());
+                        for condition in [always, not] {
+                            broken.steps[place] = Step::Gather { input, condition, next };
+                            refused[5] += usize::from(broken.clone().prove().is_err());
+                        }
                     }
                     _ => {}
                 }

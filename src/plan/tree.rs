@@ -6,6 +6,11 @@
 //! each node takes the test that tells most, and what any tree must cost (each
 //! test tells one bit at most) bounds what that may have missed. Equal parts of
 //! the tree become one.
+//!
+//! Fetches need no place in what is minimised. The state decides which inputs are
+//! fetched or which tests of fetched inputs follow, and in which order is part of
+//! the meaning: no tree over the state can save one, so their cost is the same in
+//! all. It is said beside the number of tests.
 
 use std::collections::HashMap;
 
@@ -13,7 +18,8 @@ use super::build::{Arms, Builder, Result};
 use super::key::KeyLayout;
 use super::order::Certificate;
 use super::setting::Setting;
-use super::{Plan, Shape, StepId};
+use super::{Plan, Shape, Step, StepId};
+use crate::program::claims::decide;
 use crate::program::{InputId, LevelSet};
 
 /// Most states that are looked at, over all nodes, in the search for the best tree.
@@ -34,9 +40,11 @@ pub(super) fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let mut builder = Builder::new(program);
     let arms = Arms::new(&mut builder, setting)?;
     let steps = arms.steps(&mut builder)?;
+    let ways: Vec<StepId> = arms.of.iter().map(|arm| steps[usize::from(*arm)]).collect();
+    let fetches = fetch_cost(&builder, setting, &ways);
     let mut planner = Planner {
         levels: levels(setting),
-        ways: arms.of.iter().map(|arm| steps[usize::from(*arm)]).collect(),
+        ways,
         shares: &setting.shares,
         digits: program.states.digits(),
         known: HashMap::new(),
@@ -51,7 +59,54 @@ pub(super) fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let bound = if exact { cost } else { planner.entropy(&all) };
     let mut plan = builder.finish(Shape::Tree, key, Vec::new(), root);
     plan.certificate = Some(Certificate { written: super::chain::written(setting)?, planned: cost, bound });
+    plan.notes.extend(fetches.map(|cost| format!("expected cost of fetches {cost:.3}, the same in every tree")));
     Ok(plan)
+}
+
+/// What fetches cost on average, whatever the tree: the state alone decides which way is gone. Where
+/// a way tests what the state leaves open, both sides are thought to be as likely.
+fn fetch_cost(builder: &Builder<'_>, setting: &Setting<'_, '_>, starts: &[StepId]) -> Option<f64> {
+    let program = setting.program;
+    if program.fetched.is_empty() || setting.states.len() * builder.len() > MAX_LOOKS {
+        return None;
+    }
+    let mut levels = vec![0; program.inputs.len()];
+    let mut costs = vec![0.0; builder.len()];
+    let mut sum = 0.0;
+    for ((state, share), start) in setting.states.iter().zip(&setting.shares).zip(starts) {
+        if *share == 0.0 {
+            continue;
+        }
+        program.states.write(*state, &mut levels);
+        // What follows a step was made before it.
+        for place in 0..=start.0 as usize {
+            costs[place] = match builder.step(StepId(place as u32)) {
+                Step::Fetch { input, next } => {
+                    program.inputs[input.index()].fetched.unwrap_or_default() + costs[next.0 as usize]
+                }
+                Step::Test { condition, then, other } => {
+                    let (then, other) = (costs[then.0 as usize], costs[other.0 as usize]);
+                    match decide(program, &builder.pool, *condition, &levels) {
+                        Some(holds) => {
+                            if holds {
+                                then
+                            } else {
+                                other
+                            }
+                        }
+                        None => (then + other) / 2.0,
+                    }
+                }
+                Step::Gather { .. }
+                | Step::Switch { .. }
+                | Step::Coefficients { .. }
+                | Step::Orbit { .. }
+                | Step::Leaf(_) => 0.0,
+            };
+        }
+        sum += share * costs[start.0 as usize];
+    }
+    Some(sum)
 }
 
 /// The levels of each state, input by input.

@@ -157,6 +157,14 @@ impl StateSpace {
 }
 
 impl Input {
+    /// What code finds where the input is not fetched: the least number, or the number of the first level.
+    pub fn least(&self) -> f64 {
+        match self.domain {
+            Domain::Continuous { lo, .. } => lo,
+            Domain::Discrete(_) => 0.0,
+        }
+    }
+
     /// Reads a value of this input: a level by name or code, or a number in the range.
     ///
     /// # Errors

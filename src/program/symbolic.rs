@@ -70,6 +70,8 @@ pub(crate) struct Machine<'p> {
     levels: Vec<u8>,
     /// Fetched inputs that were looked at.
     looked_at: InputSet,
+    /// Fetched inputs that are not there, so that code finds the first level or the least number.
+    absent: InputSet,
     choices: Vec<Choice>,
     /// The forms asked for, and their numbers. Multiples of a form share one.
     forms: Vec<Affine>,
@@ -103,6 +105,7 @@ impl<'p> Machine<'p> {
             conditions: pool,
             pool: pool.clone(),
             looked_at: InputSet::default(),
+            absent: InputSet::default(),
             normaliser: Normaliser::default(),
             levels: vec![0; program.inputs.len()],
             choices: Vec::new(),
@@ -135,6 +138,11 @@ impl<'p> Machine<'p> {
     /// The fetched inputs that were looked at since the last call.
     pub(crate) fn take_looked_at(&mut self) -> InputSet {
         std::mem::take(&mut self.looked_at)
+    }
+
+    /// Lets inputs be absent from here on, on this path or until told otherwise.
+    pub(crate) fn set_absent(&mut self, inputs: InputSet) {
+        self.absent = inputs;
     }
 
     /// Terms, those that were made on the way included.
@@ -176,6 +184,7 @@ impl<'p> Machine<'p> {
             return self.level_term(image);
         }
         match self.program.levels(input) {
+            Some(_) if self.absent.contains(input) => 0,
             Some(levels) if self.program.fetched.contains(input) => {
                 self.looked_at = self.looked_at.or(InputSet::one(input));
                 self.answer(Question::Level(input), LevelSet::all(levels.count()), None)
@@ -300,7 +309,8 @@ impl<'p> Machine<'p> {
     /// An expression with selections decided and images put in.
     pub(crate) fn resolve(&mut self, expr: ExprId, view: View<'_>) -> ExprId {
         let facts = self.pool.expr_facts(expr);
-        if view.symmetry.is_none() && view.result.is_none() && !facts.selects {
+        let absent = !facts.inputs.and(self.absent).is_empty();
+        if view.symmetry.is_none() && view.result.is_none() && !facts.selects && !absent {
             self.looked_at = self.looked_at.or(facts.inputs.and(self.program.fetched));
             return expr;
         }
@@ -318,6 +328,7 @@ impl<'p> Machine<'p> {
                 let image = view.symmetry.and_then(|s| s.numbers.iter().find(|(mapped, _)| *mapped == input));
                 match image {
                     Some((_, image)) => self.resolve(*image, View::PLAIN),
+                    None if self.absent.contains(input) => self.pool.number(self.program.inputs[input.index()].least()),
                     None => {
                         self.looked_at = self.looked_at.or(InputSet::one(input).and(self.program.fetched));
                         expr

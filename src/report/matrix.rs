@@ -19,6 +19,9 @@ pub(super) fn matrix(program: &Program) -> Markup {
             p { "The table has " (states) " states; a matrix is drawn of at most " (MAX_STATES) "." }
         };
     }
+    if program.states.digits().is_empty() {
+        return html! { p { "No input is discrete, so there is one state." } };
+    }
     let claims = reach::claims(program);
     let (down, across) = split(program);
     let columns: usize = across.iter().map(|(_, count)| count).product();

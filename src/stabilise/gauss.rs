@@ -132,7 +132,7 @@ pub(super) fn integral(
     (turn, node): (&str, &str),
 ) -> (String, String) {
     let Bounds { mid, half, .. } = bounds;
-    let turns = format!("let {turn} = abs({half}) * ({});", speed(&density.speed));
+    let turns = format!("let {turn} = abs({half}) * {};", speed(&density.speed));
     let mut text = String::new();
     for count in RULES {
         let _ = write!(
@@ -147,7 +147,7 @@ pub(super) fn integral(
     (turns, text)
 }
 
-/// An upper bound of how fast anything turns.
+/// An upper bound of how fast anything turns, as a factor.
 fn speed(speed: &BTreeMap<Mono, Rational>) -> String {
     let mut sum = Poly::default();
     for (factors, by) in speed {
@@ -157,7 +157,8 @@ fn speed(speed: &BTreeMap<Mono, Rational>) -> String {
         });
         let _ = sum.add_term(sized.collect(), *by);
     }
-    Printer { group_by: &[] }.sum(&sum)
+    let text = Printer { group_by: &[] }.sum(&sum);
+    if sum.0.len() > 1 { format!("({text})") } else { text }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use crate::diag::{Diagnostic, Span, codes};
 
 /// A token.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Token<'a> {
+pub(crate) enum Token<'a> {
     Number(f64),
     Word(&'a str),
     Symbol(&'static str),
@@ -30,7 +30,7 @@ const SYMBOLS: [&str; 27] = [
 ];
 
 /// Splits `text` into tokens; `base` is where the text starts in its source.
-pub(super) fn tokens(text: &str, base: usize) -> Result<Vec<(Span, Token<'_>)>, Diagnostic> {
+pub(crate) fn tokens(text: &str, base: usize) -> Result<Vec<(Span, Token<'_>)>, Diagnostic> {
     let bytes = text.as_bytes();
     let mut out = Vec::new();
     let mut at = 0;

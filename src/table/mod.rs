@@ -10,11 +10,12 @@ pub mod draw;
 pub mod expr;
 mod functions;
 mod imports;
-mod lex;
+pub(crate) mod lex;
 pub(crate) mod names;
 pub(crate) mod parse;
 pub(crate) mod raw;
 mod read;
+pub(crate) mod scan;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -319,6 +320,11 @@ impl Table {
     /// When the text is not a well-formed table.
     pub fn parse(source: Arc<Source>) -> Result<Self, Failure> {
         imports::resolve(read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })?)
+    }
+
+    /// Whether a text is a table, as far as that can be said without reading what it imports.
+    pub(crate) fn well_formed(source: &Arc<Source>) -> Result<(), Failure> {
+        read::table(source).map(drop).map_err(|diagnostics| Failure { source: source.clone(), diagnostics })
     }
 }
 

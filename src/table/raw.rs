@@ -26,9 +26,15 @@ impl<'de: 'a, 'a> Deserialize<'de> for Raw<'a> {
     }
 }
 
-/// Without the white space and comments in front, and the white space behind.
+/// Without the white space and comments around it.
 /// (`RawValue::trim` does the same by parsing the piece once more.)
 fn trim(text: &str) -> &str {
+    let rest = trim_start(text);
+    // Comments behind a value belong to its piece where no comma comes before them.
+    if rest.contains("//") || rest.contains("/*") { &rest[..super::scan::significant(rest)] } else { rest }
+}
+
+fn trim_start(text: &str) -> &str {
     let mut rest = text.trim();
     loop {
         let after = if rest.starts_with("//") {
@@ -46,7 +52,7 @@ fn trim(text: &str) -> &str {
 }
 
 /// Where the block comment at the start of a text ends; they nest.
-fn block_comment_end(text: &str) -> Option<usize> {
+pub(crate) fn block_comment_end(text: &str) -> Option<usize> {
     let mut depth = 0_usize;
     let mut at = 0;
     loop {

@@ -1,0 +1,122 @@
+//! `umbrage fmt`: tables in the layout of this project.
+
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::output::Sink;
+use super::report::{Format, Report};
+use super::{Outcome, Result};
+use crate::build;
+use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::format;
+use crate::table::{self, io_reason};
+
+/// Largest table on standard input, in bytes.
+const MAX_BYTES: u64 = 16 << 20;
+
+/// Arguments of `umbrage fmt`.
+#[derive(clap::Args)]
+pub(super) struct Arguments {
+    /// Tables, or directories that contain tables (files named *.ron, at any depth); `-` is standard input, whose
+    /// table goes to standard output
+    #[arg(value_name = "PATH", default_value = "tables")]
+    paths: Vec<PathBuf>,
+    /// Change nothing; name the tables that would change, and end with exit code 1 if there are any
+    #[arg(long)]
+    check: bool,
+}
+
+/// A table before and after.
+struct Formatted {
+    path: PathBuf,
+    before: Arc<Source>,
+    after: String,
+}
+
+/// Formats every table. Nothing is written unless all of them could be read.
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    let mut done = Vec::new();
+    let mut outcome = Outcome::Clean;
+    for path in &arguments.paths {
+        for file in if path.as_os_str() == "-" { vec![path.clone()] } else { build::find_tables(path)? } {
+            let formatted = read(&file).and_then(|before| {
+                let after = format::format(&before)?;
+                Ok(Formatted { path: file, before, after })
+            });
+            match formatted {
+                Ok(formatted) => done.push(formatted),
+                Err(failure) => {
+                    report.failure(&failure);
+                    outcome = Outcome::Failed;
+                }
+            }
+        }
+    }
+    if outcome == Outcome::Failed {
+        return Ok(outcome);
+    }
+    if arguments.check { show(&done, report) } else { write(&done, report) }
+}
+
+/// Says which tables would change, and where they first would.
+fn show(done: &[Formatted], report: &Report) -> Result<Outcome> {
+    let mut out = io::stdout().lock();
+    let changed = done.iter().filter(|table| table.before.text != table.after);
+    let mut outcome = Outcome::Clean;
+    for table in changed {
+        outcome = Outcome::Findings;
+        let (old, new): (Vec<&str>, Vec<&str>) = (table.before.text.lines().collect(), table.after.lines().collect());
+        let first = old.iter().zip(&new).take_while(|(old, new)| old == new).count();
+        let (name, line) = (&table.before.name, first + 1);
+        match report.format {
+            Format::Json => writeln!(out, "{}", serde_json::json!({"file": name, "line": line}))?,
+            Format::Human => {
+                writeln!(out, "{name}:{line}: is laid out otherwise")?;
+                for (sign, lines) in [('-', &old), ('+', &new)] {
+                    if let Some(text) = lines.get(first) {
+                        writeln!(out, "  {sign} {text}")?;
+                    }
+                }
+            }
+        }
+    }
+    out.flush()?;
+    Ok(outcome)
+}
+
+/// Replaces the tables that change.
+fn write(done: &[Formatted], report: &Report) -> Result<Outcome> {
+    let mut sinks = Vec::new();
+    for table in done.iter().filter(|table| table.path.as_os_str() == "-" || table.before.text != table.after) {
+        let mut sink = Sink::create(&table.path)?;
+        sink.write_all(table.after.as_bytes())?;
+        sinks.push((table, sink));
+    }
+    for (table, sink) in sinks {
+        sink.finish()?;
+        if report.format == Format::Human && table.path.as_os_str() != "-" {
+            writeln!(io::stdout(), "formatted {}", table.before.name)?;
+        }
+    }
+    Ok(Outcome::Clean)
+}
+
+fn read(path: &Path) -> std::result::Result<Arc<Source>, Failure> {
+    if path.as_os_str() != "-" {
+        let name = path.to_string_lossy().replace('\\', "/");
+        return Ok(Source::new(name, table::read_text(path, MAX_BYTES)?));
+    }
+    let mut bytes = Vec::new();
+    let fail = |message: String| {
+        let error = Diagnostic::error(codes::UNREADABLE, message);
+        Failure::bare("standard input", error.help("give it one table, as UTF-8 text of at most 16 MiB"))
+    };
+    let read = io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes);
+    read.map_err(|error| fail(format!("cannot be read: {}", io_reason(&error))))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(fail("is larger than 16 MiB".to_owned()));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| fail(table::not_utf8(&error)))?;
+    Ok(Source::new("standard input", text))
+}
