@@ -371,9 +371,7 @@ impl Sets {
         while let Some((from, set)) = open.pop() {
             let test = self.test(set);
             let to = test.map_or(self.levels.len(), |(digit, _)| digit);
-            for digit in from..to {
-                hull[digit] = LevelSet::all(self.levels[digit]);
-            }
+            (from..to).for_each(|digit| hull[digit] = LevelSet::all(self.levels[digit]));
             let Some((digit, children)) = test else { continue };
             for (level, child) in children.iter().enumerate().filter(|(_, child)| !child.is_empty()) {
                 hull[digit].0 |= LevelSet::one(level as u8).0;

@@ -45,6 +45,9 @@ pub(super) fn gathered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     Ok(plan)
 }
 
+/// A condition under which an input is needed, and the states for which it is this one.
+type Part = (CondId, Vec<usize>);
+
 /// The fetched inputs and when they are needed, each after those that its condition mentions.
 pub(super) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Result<Vec<(InputId, CondId)>> {
     let program = setting.program;
@@ -62,8 +65,7 @@ pub(super) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Res
         return Err(format!("its cases have {} steps, more than {MAX_STEPS}; use `ladder`", lazy.len()));
     }
     builder.pool = lazy.pool.clone();
-    let mut found: Vec<(InputId, Vec<(CondId, Vec<usize>)>)> =
-        program.fetched.iter().map(|input| (input, Vec::new())).collect();
+    let mut found: Vec<(InputId, Vec<Part>)> = program.fetched.iter().map(|input| (input, Vec::new())).collect();
     let mut levels = vec![0; program.inputs.len()];
     for (state, arm) in setting.states.iter().zip(&arms.of) {
         let step = steps[usize::from(*arm)];
