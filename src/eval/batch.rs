@@ -481,19 +481,25 @@ mod tests {
 
     #[test]
     fn trees_that_grow_too_large_are_left_to_the_reference() {
-        let inputs: String = (0..13).map(|k| format!("\"x{k}\": Range(from: 0, to: 1), ")).collect();
-        let terms: Vec<String> =
-            (0..13).map(|k| format!("(if x{k} < 0.5 {{ {}.1 }} else {{ x{k} }})", 1 << k)).collect();
+        // Selections by what is fetched are branches, since a side that is not taken must not fetch.
+        let inputs: String = (0..13)
+            .map(|k| format!("\"f{k}\": Levels(values: {{\"a\": 0, \"b\": 1}}, fetched: (cost: 1)), "))
+            .collect();
+        let terms: Vec<String> = (0..13).map(|k| format!("(if f{k} == a {{ {}.1 }} else {{ x }})", 1 << k)).collect();
         let program = program(&format!(
-            r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{ {inputs} }}, output: Number(),
-                cases: [Case(id: 1, when: "x0 > 0.1", value: "{}")], default: 0)"#,
+            r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{ "x": Range(from: 0, to: 1), {inputs} }},
+                output: Number(), cases: [Case(id: 1, when: "x > 0.1", value: "{}")], default: 0)"#,
             terms.join(" + ")
         ));
-        let point = |bits: u32| (0..13).map(move |k| Some(Value::Number(f64::from(bits >> k & 1) * 0.6 + 0.2)));
+        let point = |bits: u32| {
+            let x = Value::Number(f64::from(bits % 8) / 8.0);
+            let levels = (0..13).map(move |k| Value::Level((bits >> k & 1) as u8));
+            std::iter::once(x).chain(levels).map(Some)
+        };
         let points: Vec<Vec<_>> = (0..64).map(|k| point(k * 127).collect()).collect();
         let columns = Columns::from_rows(&program, &points).expect("fits");
         let mut batch = Batch::<f32>::new(&program);
-        let results = batch.evaluate(&columns).expect("nothing is fetched");
+        let results = batch.evaluate(&columns).expect("everything is given");
         assert!(matches!(batch.residual.trees()[batch.roots[0].index()], Tree::Scalar));
         let mut scalar = Interpreter::<f32>::new(&program);
         for (row, point) in points.iter().enumerate() {

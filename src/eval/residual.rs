@@ -483,7 +483,8 @@ mod tests {
                 let mut residual = Residual::<f32>::new(&program);
                 let root = residual.specialise(&vec![0; program.inputs.len()]);
                 assert_ne!(residual.trees()[root.index()], Tree::Scalar, "{}", program.name);
-                assert!(residual.trees().len() < 64, "{}: {}", program.name, residual.trees().len());
+                // Far from where a tree is given up. The largest, of the moments, branches over its three forms.
+                assert!(residual.trees().len() < MAX_NODES / 16, "{}: {}", program.name, residual.trees().len());
             }
         }
     }
