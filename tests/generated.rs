@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The files below a directory, except functions: what they compile to is too
-/// large to be checked in.
+/// The files below a directory.
 fn files(directory: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     let mut pending = vec![directory.to_owned()];
@@ -15,7 +14,7 @@ fn files(directory: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             let path = entry.expect("readable").path();
             if path.is_dir() {
                 pending.push(path);
-            } else if !path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("functions.")) {
+            } else {
                 let relative = path.strip_prefix(directory).expect("below").to_owned();
                 found.insert(relative, std::fs::read(&path).expect("readable"));
             }

@@ -9,8 +9,9 @@
 //
 // The host says how many balls, plates, corners and lobes there are.
 //
-// Why not a thread for each surface: Mesa's rasteriser leaves every loop of a
-// thread, without a word, after 65,535 rounds of all of them together.
+// Why not a thread for each surface: on Mesa's rasteriser the picture then had
+// blocks of wrong pixels, as if loops were left early once a thread had gone
+// through some 65,000 rounds in all.
 
 struct Surface {
     place: vec3<f32>,
