@@ -2,8 +2,8 @@
 //!
 //! A table that is malformed never gets here; [`Program::check`] refuses it.
 //! What is found here is about intent: an example that the table contradicts,
-//! a declaration that nothing uses, cases that contradict each other. Each analysis is a file of its own and a
-//! line of [`ANALYSES`].
+//! a declaration that nothing uses, cases that contradict each other. Each
+//! analysis is a file of its own.
 
 mod claims;
 mod continuity;

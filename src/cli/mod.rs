@@ -1,7 +1,7 @@
 //! The command line: arguments, exit codes, and how things are said.
 //!
 //! Each subcommand is a file with its arguments and a `run` that returns an
-//! [`Outcome`]; what it computes lives in the library. Results go to standard
+//! `Outcome`; what it computes lives in the library. Results go to standard
 //! output, messages to standard error.
 
 mod answers;

@@ -1,7 +1,7 @@
 //! Printers: proved plan → source text, and through naga to SPIR-V, HLSL and MSL.
 //!
 //! Only a [`Proved`] plan can be printed. One walk over the plan
-//! ([`module`]) decides what is said; a [`Dialect`](dialect::Dialect) per
+//! (`module`) decides what is said; a `Dialect` per
 //! language decides how. What comes out depends on the table and the options
 //! alone, so it is the same bytes on every machine.
 

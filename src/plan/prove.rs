@@ -2,7 +2,7 @@
 //!
 //! For each state of the discrete inputs the program is run symbolically.
 //! Whatever the state does not decide (the level of a fetched input, a
-//! comparison of numbers) is asked of an [`Oracle`], which remembers its
+//! comparison of numbers) is asked of an `Oracle`, which remembers its
 //! answers; the plan then runs on the same answers. Every sequence of answers
 //! is gone through, so all paths are covered. On each path
 //!

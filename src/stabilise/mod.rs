@@ -4,15 +4,15 @@
 //! digits:
 //!
 //! - *differences of antiderivatives*, `F | x = lo .. hi` with sines and cosines
-//!   in F: [`between`] writes them as products in which the divisor is gone;
-//! - *quotients that are functions of one quantity*, such as sinh(y)/y: [`kernel`]
+//!   in F: `between` writes them as products in which the divisor is gone;
+//! - *quotients that are functions of one quantity*, such as sinh(y)/y: `kernel`
 //!   collects them and gives them a series near zero. An exponential in front of
 //!   sinh and cosh takes their growth first, so that nothing overflows;
 //! - *an upper side minus a lower one*, spread over several such differences:
-//!   [`integrand`] finds what is integrated, [`sides`] writes it as a product,
-//!   [`gauss`] integrates it by as many nodes as it takes.
+//!   `integrand` finds what is integrated, `sides` writes it as a product,
+//!   `gauss` integrates it by as many nodes as it takes.
 //!
-//! All work on sums of products ([`poly`]), in which equal terms cancel exactly.
+//! All work on sums of products (`poly`), in which equal terms cancel exactly.
 //! A function that no pattern fits stays as it is written; it gains from the
 //! functions it calls. What was reached the certificate says.
 

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A [`Shader`] is a technique with a proved plan of its table, compiled for one
-//! kind of output. It takes the same [`ShadowMap`](super::ShadowMap) and
-//! [`Receivers`](super::Receivers) as the CPU, whoever made them, and decides
+//! kind of output. It takes the same [`ShadowMap`] and
+//! [`Receivers`] as the CPU, whoever made them, and decides
 //! every pixel alike: depth tests and steps of walks are exact in `f32`, so that
 //! the case is the same and only divisions may round otherwise.
 
