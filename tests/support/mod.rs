@@ -65,6 +65,8 @@ impl Place {
             .args(arguments.split_whitespace())
             .current_dir(self.directory.path())
             .env_remove("RUST_BACKTRACE")
+            // Without it Mesa complains on standard error, where only the command should speak.
+            .env("XDG_RUNTIME_DIR", self.directory.path())
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
