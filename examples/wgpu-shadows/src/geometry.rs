@@ -81,7 +81,8 @@ fn face(light: &View, colour: [f64; 3], triangle: &Triangle) -> [Vertex; 3] {
     let (anchor, slope) = plane(light, triangle.corners);
     std::array::from_fn(|i| Vertex {
         place: triangle.corners[i].as_vec3().to_array(),
-        normal: triangle.normals[i].as_vec3().to_array(),
+        // On the same side as the face, whichever way round its corners are.
+        normal: (triangle.normals[i] * triangle.normals[i].dot(face).signum()).as_vec3().to_array(),
         face: face.as_vec3().to_array(),
         colour: DVec3::from_array(colour).as_vec3().to_array(),
         light: (light.matrix * triangle.corners[i].extend(1.0)).as_vec4().to_array(),

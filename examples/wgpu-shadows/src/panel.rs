@@ -132,8 +132,10 @@ pub(crate) fn show(
 
 /// The legend.
 fn cases(context: &egui::Context, entries: &[Entry]) {
-    let window = egui::Window::new("Cases").anchor(Align2::RIGHT_TOP, [-8.0, 8.0]).resizable(false);
+    let window = egui::Window::new("Cases").anchor(Align2::RIGHT_TOP, [-8.0, 8.0]).resizable(false).vscroll(true);
     window.show(context, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ui.spacing_mut().interact_size.y = 12.0;
         if entries.is_empty() {
             ui.label("no pixel asks the table");
         }

@@ -101,7 +101,6 @@ impl ApplicationHandler for Program<'_> {
                 if let Err(problem) = shown.draw(&mut self.view) {
                     self.end(events, problem);
                 }
-                return;
             }
             WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Pressed => {
                 self.key(events, &event.logical_key);
