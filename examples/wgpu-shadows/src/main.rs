@@ -23,6 +23,7 @@ mod gpu;
 mod headless;
 mod panel;
 mod renderer;
+mod resources;
 mod shaders;
 mod view;
 mod window;
