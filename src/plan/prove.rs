@@ -23,10 +23,10 @@ use std::fmt;
 use super::reachable::reachable;
 use super::{Leaf, Plan, Step, StepId, prove_real, rounding, route};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::program::claims::Claims;
+use crate::program::claims::{Candidates, Places};
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Row, Value};
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
 
 /// Most paths of one state, and of all states together beyond the first of each.
 const MAX_PATHS_OF_STATE: usize = 1 << 16;
@@ -155,10 +155,7 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         pool: plan.pool.clone(),
         normaliser: Normaliser::default(),
         oracle: Oracle::new(program),
-        claims: Claims::new(program),
-        fetching: (0..program.rows.len())
-            .filter(|row| !program.pool.cond_facts(program.rows[*row].guard).inputs.and(program.fetched).is_empty())
-            .collect(),
+        candidates: Candidates::new(program),
         absent: InputSet::default(),
         starts: route::starts(plan, &states),
         identical: 0,
@@ -257,10 +254,7 @@ struct Prover<'a, 'p> {
     pool: Pool,
     normaliser: Normaliser,
     oracle: Oracle,
-    /// The rows to look at in each state; `None` to look at all.
-    claims: Option<Claims>,
-    /// Rows whose guards fetch, which they may do in states that they do not claim.
-    fetching: Vec<usize>,
+    candidates: Candidates,
     /// Inputs that the plan declares but has not fetched on this path: code finds their first level
     /// or least value there. Empty while the program runs.
     absent: InputSet,
@@ -390,8 +384,9 @@ impl<'p> Prover<'_, 'p> {
     fn run_program(&mut self, state: usize) -> Run {
         let program = self.plan.program;
         let (mut fetched, absent) = (InputSet::default(), InputSet::default());
-        let mut places = (0, 0);
-        while let Some((index, row)) = self.candidate(state, &mut places) {
+        let mut places = Places::default();
+        while let Some(index) = self.candidates.next(state, &mut places) {
+            let row = &program.rows[index];
             if !self.holds(row.guard, &mut fetched) {
                 continue;
             }
@@ -403,23 +398,6 @@ impl<'p> Prover<'_, 'p> {
             return Run { row: Some(index), line: None, values: program.default.clone(), fetched, absent };
         }
         Run { row: None, line: None, values: program.default.clone(), fetched, absent }
-    }
-
-    /// The next row that is looked at in a state, after so many that claim it and so many that fetch.
-    fn candidate(&self, state: usize, (claimed, fetching): &mut (usize, usize)) -> Option<(usize, &'p Row)> {
-        let rows = &self.plan.program.rows;
-        let index = match &self.claims {
-            Some(claims) => match (claims.row(state, *claimed), self.fetching.get(*fetching).copied()) {
-                (Some(row), None) | (None, Some(row)) => row,
-                (Some(row), Some(other)) => row.min(other),
-                (None, None) => return None,
-            },
-            None => *claimed,
-        };
-        *fetching += usize::from(self.fetching.get(*fetching) == Some(&index));
-        let is_claim = self.claims.as_ref().is_none_or(|claims| claims.row(state, *claimed) == Some(index));
-        *claimed += usize::from(is_claim);
-        rows.get(index).map(|row| (index, row))
     }
 
     /// The plan, step by step, with the discipline of fetching checked.
