@@ -84,6 +84,20 @@ pub struct Capture {
 ///
 /// # Errors
 /// When `out` cannot be written.
+///
+/// ```
+/// use umbrage::capture;
+/// use umbrage::eval::Columns;
+/// use umbrage::program::Program;
+///
+/// let program = Program::read("tables/smsr.ron")?;
+/// let points = program.examples.iter().map(|example| &example.inputs);
+/// let columns = Columns::from_rows(&program, points).unwrap();
+/// let mut bytes = Vec::new();
+/// capture::write(&program, &columns, &mut bytes).unwrap();
+/// assert_eq!(capture::parse(&program, &bytes).unwrap().columns.len(), columns.len());
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn write(program: &Program, columns: &Columns<f32>, out: &mut impl Write) -> io::Result<()> {
     let kind = |input: &Input, column: &Column<f32>| match (&input.domain, column) {
         (Domain::Discrete(levels), _) => Kind::Levels(levels.names.clone()),

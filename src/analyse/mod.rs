@@ -76,6 +76,17 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 }
 
 /// Every finding: those to be shown, at the levels asked for, and those that the table acknowledges.
+///
+/// ```
+/// use umbrage::analyse::{Levels, report};
+/// use umbrage::program::Program;
+///
+/// let program = Program::read("tables/published/rsmss_as_printed.ron")?;
+/// let findings = report(&program, &Levels::default());
+/// let breaks_symmetry = |finding: &umbrage::diag::Diagnostic| finding.code.0 == "U0506";
+/// assert!(findings.open.iter().any(breaks_symmetry));
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn report(program: &Program, levels: &Levels) -> Findings {
     let mut found: Vec<Diagnostic> = PLAIN.iter().flat_map(|analysis| analysis(program)).collect();
     // A function has no cases that could contradict each other, and `claims` and `singular` look at its numbers.

@@ -43,6 +43,17 @@ impl Atlas {
     ///
     /// # Errors
     /// When a picture cannot be encoded.
+    ///
+    /// ```
+    /// use umbrage::atlas::Atlas;
+    /// use umbrage::program::Program;
+    ///
+    /// let program = Program::read("tables/smsr.ron")?;
+    /// let atlas = Atlas::new(&program, None)?;
+    /// assert_eq!(atlas.panels.len(), 12);
+    /// assert!(atlas.panels[0].svg().starts_with("<svg"));
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn new(program: &Program, shares: Option<&[f64]>) -> Result<Self, Failure> {
         let scale = values::Scale::of(program);
         let panels = program.rows.iter().enumerate().map(|(index, row)| {

@@ -109,6 +109,18 @@ impl Report {
 ///
 /// # Errors
 /// When a plan cannot be proved, or the device fails.
+///
+/// ```no_run
+/// use umbrage::diff;
+/// use umbrage::gpu::{AdapterChoice, Gpu};
+/// use umbrage::program::Program;
+///
+/// let program = Program::read("tables/smsr.ron")?;
+/// let gpu = Gpu::open(&AdapterChoice::Any)?;
+/// let report = diff::table(&program, &gpu, &diff::Options::default(), |_| {})?;
+/// assert_eq!(report.offending(), 0);
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnMut(usize)) -> Result<Report, Failure> {
     plans(program, &suitable(program, options)?, gpu, options.effort, progress)
 }

@@ -75,6 +75,18 @@ impl<'p, T: Real> Batch<'p, T> {
     ///
     /// # Panics
     /// If the columns were made for a program with other inputs.
+    ///
+    /// ```
+    /// use umbrage::eval::{Batch, Columns};
+    /// use umbrage::program::Program;
+    ///
+    /// let program = Program::read("tables/smsr.ron")?;
+    /// let points = program.examples.iter().map(|example| &example.inputs);
+    /// let columns = Columns::<f32>::from_rows(&program, points).unwrap();
+    /// let results = Batch::new(&program).evaluate(&columns).unwrap();
+    /// assert_eq!(results.row(0), Some(program.examples[0].row));
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn evaluate(&mut self, columns: &Columns<T>) -> Result<Results<T>, Missing> {
         let mut results = Results::default();
         self.evaluate_into(columns, &mut results)?;

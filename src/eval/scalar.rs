@@ -76,6 +76,17 @@ impl<'p, T: Real> Interpreter<'p, T> {
     ///
     /// # Errors
     /// With the first input that is needed but absent.
+    ///
+    /// ```
+    /// use umbrage::eval::Interpreter;
+    /// use umbrage::program::Program;
+    ///
+    /// let program = Program::read("tables/smsr.ron")?;
+    /// let example = &program.examples[0];
+    /// let outcome = Interpreter::<f32>::new(&program).evaluate(&example.inputs).unwrap();
+    /// assert_eq!(outcome.row, Some(example.row));
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn evaluate(&mut self, point: &[Option<Value>]) -> Result<Outcome<T>, NeedsFetch> {
         self.place(point)?;
         for (index, row) in self.program.rows.iter().enumerate() {

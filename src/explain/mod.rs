@@ -70,6 +70,17 @@ pub struct Needed {
 ///
 /// # Errors
 /// With the first input that is needed but absent.
+///
+/// ```
+/// use umbrage::explain::explain;
+/// use umbrage::program::Program;
+/// use umbrage::show::Precision;
+///
+/// let program = Program::read("tables/smsr.ron")?;
+/// let explanation = explain(&program, &program.examples[0].inputs, Precision::F32).unwrap();
+/// assert_eq!(explanation.row, Some(program.examples[0].row));
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn explain(program: &Program, point: &[Option<Value>], precision: Precision) -> Result<Explanation, Needed> {
     match precision {
         Precision::F32 => Witness::<f32>::new(program, precision).explain(point),

@@ -66,6 +66,23 @@ impl<'a, 'p> Kernel<'a, 'p> {
     ///
     /// # Errors
     /// When the source is refused; that would be a bug of the emitter or the driver.
+    ///
+    /// ```no_run
+    /// use umbrage::emit::harness::Entry;
+    /// use umbrage::eval::Columns;
+    /// use umbrage::gpu::{AdapterChoice, Gpu, Kernel, Language};
+    /// use umbrage::plan::{Plan, Shape};
+    /// use umbrage::program::Program;
+    ///
+    /// let program = Program::read("tables/smsr.ron")?;
+    /// let proved = Plan::proved(&program, Shape::Ladder)?;
+    /// let gpu = Gpu::open(&AdapterChoice::Any)?;
+    /// let points = program.examples.iter().map(|example| &example.inputs);
+    /// let columns = Columns::from_rows(&program, points).unwrap();
+    /// let outputs = Kernel::new(&gpu, &proved, Entry::Key, Language::Wgsl)?.run(&columns)?;
+    /// assert_eq!(outputs.values.len(), columns.len());
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn new(gpu: &'a Gpu, proved: &Proved<'p>, entry: Entry, language: Language) -> Result<Self, Failure> {
         let program = proved.plan().program;
         let module = match language {

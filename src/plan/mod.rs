@@ -296,6 +296,16 @@ impl<'p> Plan<'p> {
     /// # Errors
     /// When the shape does not suit the program, or, which would be a bug of
     /// the planner, when the plan is not equal to it.
+    ///
+    /// ```
+    /// use umbrage::plan::{LookupPlace, Plan, Shape};
+    /// use umbrage::program::Program;
+    ///
+    /// let program = Program::read("tables/rsmss.ron")?;
+    /// let proved = Plan::proved(&program, Shape::Switch(LookupPlace::Constants))?;
+    /// assert_eq!((proved.proof().states, proved.proof().paths), (1152, 2856));
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn proved<'w>(program: &'p Program, options: impl Into<PlanOptions<'w>>) -> Result<Proved<'p>, Failure> {
         Self::new(program, options)?.prove()
     }

@@ -85,6 +85,12 @@ fn one() -> f64 {
 ///
 /// # Errors
 /// When the file cannot be read or is no profile; with the place.
+///
+/// ```
+/// let profile = umbrage::profile::read("profiles/smsr.ron".as_ref())?;
+/// assert!(profile.total() > 1000 && profile.table == "smsr");
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn read(path: &Path) -> Result<Profile, Failure> {
     let name = path.to_string_lossy().replace('\\', "/");
     parse(&Source::new(name, read_text(path, MAX_BYTES)?))

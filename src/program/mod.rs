@@ -297,6 +297,17 @@ impl Program {
     ///
     /// # Errors
     /// When the file cannot be read or is not a meaningful table of cases.
+    ///
+    /// ```
+    /// use umbrage::program::Program;
+    ///
+    /// let program = Program::read("tables/smsr.ron")?;
+    /// assert_eq!((program.rows.len(), program.states.count()), (12, 576));
+    ///
+    /// let failure = Program::read("tables/snsr.ron").unwrap_err();
+    /// assert!(failure.to_string().contains("error[U0001]"));
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn read(path: impl AsRef<std::path::Path>) -> Result<Self, Failure> {
         Self::check(&Table::read(path)?)
     }
@@ -314,6 +325,14 @@ impl Program {
     ///
     /// # Errors
     /// As [`Self::read_all`], and when there is no such function.
+    ///
+    /// ```
+    /// use umbrage::program::Program;
+    ///
+    /// let lobe = Program::read_function("tables/spherical_gaussian.ron", Some("r0"))?;
+    /// assert!(lobe.input("lambda").is_some());
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn read_function(path: impl AsRef<std::path::Path>, name: Option<&str>) -> Result<Self, Failure> {
         let table = Table::read(path)?;
         let mut all = Self::check_all(&table)?;

@@ -32,6 +32,16 @@ pub struct Known<'a> {
 ///
 /// # Errors
 /// When a picture cannot be encoded.
+///
+/// ```
+/// use umbrage::program::Program;
+/// use umbrage::report::{Known, page};
+///
+/// let program = Program::read("tables/smsr.ron")?;
+/// let html = page(&program, Known { profile: None, tuned: None })?;
+/// assert!(html.contains("</html>"));
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn page(program: &Program, known: Known<'_>) -> Result<String, Failure> {
     let shares = known.profile.map(|profile| profile::shares(profile, program));
     let atlas = Atlas::new(program, shares.as_deref())?;

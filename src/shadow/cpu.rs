@@ -67,6 +67,23 @@ impl Decision {
 ///
 /// # Errors
 /// When the table asks for inputs that a shadow map does not have.
+///
+/// ```
+/// use umbrage::shadow::cpu::{self, Frame};
+/// use umbrage::shadow::passes::{Bias, Stage};
+/// use umbrage::shadow::scene::Scene;
+/// use umbrage::shadow::{Settings, Technique};
+///
+/// let scene = Scene::open("slope")?;
+/// let stage = Stage::new(&scene);
+/// let map = stage.shadow_map(64, Bias::default());
+/// let receivers = stage.receivers(&stage.picture(32, 18), map.size);
+/// let frame = Frame { map: &map, receivers: &receivers, settings: &Settings::default() };
+/// let program = cpu::table(Technique::Smsr)?;
+/// let visibility = cpu::visibility(Technique::Smsr, program.as_ref(), frame, &|_| {})?;
+/// assert_eq!(visibility.value.len(), 32 * 18);
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn visibility(
     technique: Technique,
     program: Option<&Program>,

@@ -73,6 +73,17 @@ pub enum Outcome {
 ///
 /// # Errors
 /// If the table has no functions, or if what was written is not a table again.
+///
+/// ```
+/// use umbrage::stabilise::stabilise;
+/// use umbrage::table::Table;
+///
+/// let printed = Table::read("tables/double_product_printed.ron")?;
+/// let stable = stabilise(&printed)?;
+/// assert!(stable.text.contains("functions: {"));
+/// assert_eq!(stable.functions.len(), printed.functions.len());
+/// # Ok::<(), umbrage::diag::Failure>(())
+/// ```
 pub fn stabilise(table: &Table) -> Result<Stabilised, Failure> {
     if table.functions.is_empty() {
         let error = Diagnostic::error(codes::NO_FUNCTIONS, "the table has no functions to stabilise")

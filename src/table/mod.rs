@@ -318,6 +318,14 @@ impl Table {
     ///
     /// # Errors
     /// When the text is not a well-formed table.
+    ///
+    /// ```
+    /// use umbrage::diag::Source;
+    /// use umbrage::table::Table;
+    ///
+    /// let failure = Table::parse(Source::new("mine.ron", "Table(language: 1,")).unwrap_err();
+    /// assert!(failure.to_string().contains("mine.ron:1:"));
+    /// ```
     pub fn parse(source: Arc<Source>) -> Result<Self, Failure> {
         imports::resolve(read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })?)
     }

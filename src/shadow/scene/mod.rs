@@ -76,6 +76,15 @@ impl Scene {
     ///
     /// # Errors
     /// When there is no such scene, or when it is wrong.
+    ///
+    /// ```
+    /// use umbrage::shadow::scene::Scene;
+    ///
+    /// let scene = Scene::open("fence")?;
+    /// assert!(scene.triangles().count() > 100);
+    /// assert!(Scene::open("fense").unwrap_err().to_string().contains("did you mean `fence`?"));
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
     pub fn open(name: &str) -> Result<Self, Failure> {
         if let Some((name, text)) = BUILT_IN.iter().find(|(known, _)| *known == name) {
             return Self::parse(name, &Source::new(format!("scenes/{name}.ron"), *text), Path::new("scenes"));
