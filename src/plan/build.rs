@@ -6,6 +6,7 @@
 //! in which the program would demand them. What is already known on the way
 //! removes tests that are decided.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::key::KeyLayout;
@@ -19,6 +20,10 @@ use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Po
 const MAX_STEPS: usize = 200_000;
 /// Deepest chain of tests that depend on fetched inputs.
 const MAX_DEPTH: usize = 400;
+/// Most tests, guards and lines that are gone through, over all ways to come to them.
+const MAX_TAKEN_APART: usize = 2_000_000;
+/// What helps against too many ways.
+const SPLIT: &str = "split cases in which many lines or choices depend on fetched inputs";
 /// Most entries of a lookup in constants, and in a buffer.
 const MAX_CONSTANT_KEYS: u32 = 12;
 pub(super) const MAX_BUFFER_KEYS: u32 = 24;
@@ -26,6 +31,7 @@ pub(super) const MAX_BUFFER_KEYS: u32 = 24;
 pub(super) type Result<T> = std::result::Result<T, String>;
 /// Rows that may be taken, with what is left of their guards.
 pub(super) type Guarded = Vec<(usize, CondId)>;
+/// What to do with a condition that came out one way.
 type Next<'a, 'p> = &'a dyn Fn(&mut Builder<'p>, &Knowledge) -> Result<StepId>;
 
 pub(super) struct Builder<'p> {
@@ -34,6 +40,47 @@ pub(super) struct Builder<'p> {
     steps: Vec<Step>,
     index: HashMap<Step, StepId>,
     depth: usize,
+    /// Decisions taken apart so far.
+    taken_apart: usize,
+}
+
+/// A chain of rows that is being made.
+struct Chain<'a> {
+    rows: &'a [(usize, CondId)],
+    /// What is known in front of it.
+    known: &'a Knowledge,
+    /// By place, the fetched inputs that the rows from there on, or the default, mention.
+    mentioned: Vec<InputSet>,
+    /// What was made from a place on, where some of those inputs were fetched.
+    made: RefCell<HashMap<(usize, InputSet), StepId>>,
+}
+
+impl<'a> Chain<'a> {
+    fn new(builder: &Builder<'_>, rows: &'a [(usize, CondId)], known: &'a Knowledge) -> Self {
+        let program = builder.program;
+        let values = |values: &[ExprId]| {
+            values.iter().fold(InputSet::default(), |all, value| all.or(program.pool.expr_facts(*value).inputs))
+        };
+        let mut mentioned = vec![values(&program.default).and(program.fetched)];
+        for (row, guard) in rows.iter().rev() {
+            let lines = program.rows[*row].lines.iter();
+            let inputs = lines.fold(builder.pool.cond_facts(*guard).inputs, |all, line| {
+                all.or(program.pool.cond_facts(line.condition).inputs).or(values(&line.values))
+            });
+            let behind = mentioned.last().copied().unwrap_or_default();
+            mentioned.push(behind.or(inputs.and(program.fetched)));
+        }
+        mentioned.reverse();
+        Self { rows, known, mentioned, made: RefCell::default() }
+    }
+
+    /// The first row from a place on whose guard needs an input that is not yet fetched.
+    fn next_fetching(&self, builder: &Builder<'_>, from: usize, known: &Knowledge) -> Option<(usize, CondId)> {
+        let needs =
+            |(_, guard): &(usize, CondId)| !builder.missing(builder.pool.cond_facts(*guard).inputs, known).is_empty();
+        let place = self.rows[from..].iter().position(needs)? + from;
+        Some((place, self.rows[place].1))
+    }
 }
 
 /// The ordered chain of guards, as written.
@@ -129,7 +176,7 @@ impl Arms {
 
 impl<'p> Builder<'p> {
     pub(super) fn new(program: &'p Program) -> Self {
-        Self { program, pool: program.pool.clone(), steps: Vec::new(), index: HashMap::new(), depth: 0 }
+        Self { program, pool: program.pool.clone(), steps: Vec::new(), index: HashMap::new(), depth: 0, taken_apart: 0 }
     }
 
     pub(super) fn finish(self, shape: Shape, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
@@ -224,38 +271,82 @@ impl<'p> Builder<'p> {
 
     /// A chain of rows, then the default.
     pub(super) fn rows(&mut self, rows: &[(usize, CondId)], known: &Knowledge) -> Result<StepId> {
-        self.descend(|me| {
+        let chain = Chain::new(self, rows, known);
+        self.chain(&chain, 0, known.fetched)
+    }
+
+    /// The chain from row number `from` on, with some inputs fetched.
+    fn chain(&mut self, chain: &Chain<'_>, from: usize, fetched: InputSet) -> Result<StepId> {
+        // Places that are come to without another fetch are built from the last one, so that only
+        // fetches nest.
+        let mut places = vec![from];
+        let known = chain.known.with_fetched(fetched);
+        while let Some(last) = places.last()
+            && let Some((place, guard)) = chain.next_fetching(self, *last, &known)
+            && self.may_be(guard, false, &known)
+        {
+            places.push(place + 1);
+        }
+        let mut step = self.chain_at(chain, places.pop().unwrap_or(from), &known)?;
+        for place in places.into_iter().rev() {
+            step = self.chain_at(chain, place, &known)?;
+        }
+        Ok(step)
+    }
+
+    fn chain_at(&mut self, chain: &Chain<'_>, from: usize, known: &Knowledge) -> Result<StepId> {
+        // Inputs that nothing from here on mentions make no difference.
+        let place = (from, known.fetched.and(chain.mentioned[from]));
+        if let Some(step) = chain.made.borrow().get(&place) {
+            return Ok(*step);
+        }
+        let step = self.descend(|me| {
             // Guards that need nothing fetched are tested as they stand, and the
             // chain is built from its end, so that its length costs no stack.
-            let free = rows
-                .iter()
-                .position(|(_, guard)| !me.missing(me.pool.cond_facts(*guard).inputs, known).is_empty())
-                .unwrap_or(rows.len());
-            let mut next = match rows.get(free) {
+            let fetching = chain.next_fetching(me, from, known);
+            let free = fetching.map_or(chain.rows.len(), |(place, _)| place);
+            let mut next = match fetching {
                 None => {
                     let program = me.program;
                     me.leaf(None, None, program.default.clone(), known)?
                 }
-                Some((row, guard)) => {
-                    let (row, rest) = (*row, &rows[free + 1..]);
+                Some((_, guard)) => {
+                    let row = chain.rows[free].0;
                     let yes = |me: &mut Self, known: &Knowledge| me.lines(row, 0, known);
                     // Later guards stay as written: only what was fetched is remembered.
-                    let no = |me: &mut Self, after: &Knowledge| me.rows(rest, &known.with_fetched(after.fetched));
-                    me.branch(*guard, known, &yes, &no)?
+                    let no = |me: &mut Self, after: &Knowledge| me.chain(chain, free + 1, after.fetched);
+                    me.branch(guard, known, &yes, &no)?
                 }
             };
-            for (row, guard) in rows[..free].iter().rev() {
+            for (row, guard) in chain.rows[from..free].iter().rev() {
                 let inside = known.with(&me.pool, *guard, true);
                 let then = me.lines(*row, 0, &inside)?;
                 next = me.test(*guard, then, next)?;
             }
             Ok(next)
-        })
+        })?;
+        chain.made.borrow_mut().insert(place, step);
+        Ok(step)
+    }
+
+    /// Whether a condition can come out as `value` before anything more is fetched. It may say no
+    /// where it can: a plan then nests deeper than it must.
+    fn may_be(&self, condition: CondId, value: bool, known: &Knowledge) -> bool {
+        match self.pool.cond(condition) {
+            Cond::Not(inner) => self.may_be(*inner, !value, known),
+            Cond::And(parts) if !value => parts.iter().any(|part| self.may_be(*part, false, known)),
+            Cond::Or(parts) if value => parts.iter().any(|part| self.may_be(*part, true, known)),
+            _ => self.missing(self.pool.cond_facts(condition).inputs, known).is_empty(),
+        }
     }
 
     fn descend(&mut self, inner: impl FnOnce(&mut Self) -> Result<StepId>) -> Result<StepId> {
         if self.depth >= MAX_DEPTH {
-            return Err(format!("tests of fetched inputs nest deeper than {MAX_DEPTH}"));
+            return Err(format!("tests of fetched inputs nest deeper than {MAX_DEPTH}; {SPLIT}"));
+        }
+        self.taken_apart += 1;
+        if self.taken_apart > MAX_TAKEN_APART {
+            return Err(format!("its tests of fetched inputs take more than {MAX_TAKEN_APART} decisions; {SPLIT}"));
         }
         self.depth += 1;
         let result = inner(self);
@@ -266,12 +357,38 @@ impl<'p> Builder<'p> {
     /// The lines of a row, from number `from` on.
     fn lines(&mut self, row: usize, from: usize, known: &Knowledge) -> Result<StepId> {
         let program = self.program;
-        let Some(line) = program.rows[row].lines.get(from) else {
-            return self.leaf(Some(row), None, program.default.clone(), known);
+        let lines = &program.rows[row].lines;
+        // As in a chain: tests that need nothing fetched are built from the last one.
+        let mut free: Vec<(CondId, usize, Knowledge)> = Vec::new();
+        let mut known = known.clone();
+        let mut at = from;
+        let mut next = loop {
+            let Some(line) = lines.get(at) else {
+                break self.leaf(Some(row), None, program.default.clone(), &known)?;
+            };
+            let condition = known.cond(&mut self.pool, line.condition);
+            let facts = self.pool.cond_facts(condition);
+            match self.pool.truth(condition) {
+                Some(true) => break self.leaf(Some(row), Some(at), line.values.clone(), &known)?,
+                Some(false) => {}
+                None if self.missing(facts.inputs, &known).is_empty() => {
+                    free.push((condition, at, known.with(&self.pool, condition, true)));
+                    known = known.with(&self.pool, condition, false);
+                }
+                None => {
+                    let yes =
+                        |me: &mut Self, known: &Knowledge| me.leaf(Some(row), Some(at), line.values.clone(), known);
+                    let no = |me: &mut Self, known: &Knowledge| me.lines(row, at + 1, known);
+                    break self.branch(condition, &known, &yes, &no)?;
+                }
+            }
+            at += 1;
         };
-        let yes = |me: &mut Self, known: &Knowledge| me.leaf(Some(row), Some(from), line.values.clone(), known);
-        let no = |me: &mut Self, known: &Knowledge| me.lines(row, from + 1, known);
-        self.branch(line.condition, known, &yes, &no)
+        for (condition, line, inside) in free.into_iter().rev() {
+            let then = self.leaf(Some(row), Some(line), lines[line].values.clone(), &inside)?;
+            next = self.test(condition, then, next)?;
+        }
+        Ok(next)
     }
 
     /// A result, with everything fetched that it needs, and nothing else.
@@ -322,7 +439,8 @@ impl<'p> Builder<'p> {
         yes: Next<'_, 'p>,
         no: Next<'_, 'p>,
     ) -> Result<StepId> {
-        let condition = known.cond(&mut self.pool, condition);
+        let asked = condition;
+        let condition = known.cond(&mut self.pool, asked);
         match self.pool.truth(condition) {
             Some(true) => return yes(self, known),
             Some(false) => return no(self, known),
@@ -334,6 +452,10 @@ impl<'p> Builder<'p> {
             let other = no(self, &known.with(&self.pool, condition, false))?;
             return self.test(condition, then, other);
         }
+        // A value that hangs on the condition asks for it again, and what is known of its parts need
+        // not answer that: where one of two does not hold, it is open which.
+        let yes: Next<'_, 'p> = &|me, known| yes(me, &known.with_outcome([asked, condition], true));
+        let no: Next<'_, 'p> = &|me, known| no(me, &known.with_outcome([asked, condition], false));
         match self.pool.cond(condition).clone() {
             Cond::Const(_) => yes(self, known),
             Cond::Not(inner) => self.branch(inner, known, no, yes),

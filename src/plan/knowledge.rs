@@ -41,6 +41,17 @@ impl Knowledge {
         next
     }
 
+    /// The same, with the outcome of conditions that were taken apart.
+    pub(super) fn with_outcome(&self, conditions: [CondId; 2], value: bool) -> Self {
+        let mut next = self.clone();
+        for condition in conditions {
+            if !next.tested.contains(&(condition, value)) {
+                next.tested.push((condition, value));
+            }
+        }
+        next
+    }
+
     fn assume(&mut self, pool: &Pool, condition: CondId, value: bool) {
         match pool.cond(condition) {
             Cond::Level(input, levels) => {

@@ -23,14 +23,16 @@ use std::fmt;
 use super::reachable::reachable;
 use super::{Leaf, Plan, Step, StepId, prove_real, rounding, route};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::program::claims::Claims;
+use crate::program::claims::{Candidates, Places};
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Row, Value};
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
 
 /// Most paths of one state, and of all states together beyond the first of each.
 const MAX_PATHS_OF_STATE: usize = 1 << 16;
 const MAX_PATHS: usize = 1 << 18;
+/// Most questions answered in one state, on all of its paths.
+const MAX_ANSWERS: usize = 1 << 22;
 
 /// What a proof found.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,7 +101,7 @@ impl Refusal {
                 let message = format!("the plan `{shape}` of `{}` has too many paths to be proved", program.name);
                 let diagnostic = Diagnostic::error(codes::PROOF_TOO_LONG, message)
                     .help(format!(
-                        "a state may have {MAX_PATHS_OF_STATE} paths, and all states {MAX_PATHS} more than one each; each comparison of numbers and each fetch multiplies them"
+                        "a state may have {MAX_PATHS_OF_STATE} paths, and all states {MAX_PATHS} more than one each, fewer where they are long; each comparison of numbers and each fetch multiplies them"
                     ))
                     .help(format!("the limit was met in the state {}", state.join(", ")))
                     .help("split cases with many comparisons or choices, or make a comparison an input of the table");
@@ -153,10 +155,7 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         pool: plan.pool.clone(),
         normaliser: Normaliser::default(),
         oracle: Oracle::new(program),
-        claims: Claims::new(program),
-        fetching: (0..program.rows.len())
-            .filter(|row| !program.pool.cond_facts(program.rows[*row].guard).inputs.and(program.fetched).is_empty())
-            .collect(),
+        candidates: Candidates::new(program),
         absent: InputSet::default(),
         starts: route::starts(plan, &states),
         identical: 0,
@@ -165,15 +164,16 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
     };
     for (gone, state) in states.iter().enumerate() {
         program.states.write(*state, &mut prover.oracle.levels);
-        prover.oracle.choices.clear();
+        prover.oracle.restart();
         let before = prover.paths;
         loop {
             prover.path(*state).map_err(Refusal::Different)?;
             if !prover.oracle.advance() {
                 break;
             }
-            if prover.paths - before >= MAX_PATHS_OF_STATE || prover.paths - gone > MAX_PATHS {
-                prover.oracle.choices.clear();
+            let paths = prover.paths - before >= MAX_PATHS_OF_STATE || prover.paths - gone > MAX_PATHS;
+            if paths || prover.oracle.answered > MAX_ANSWERS {
+                prover.oracle.restart();
                 return Err(Refusal::TooLong { shape: plan.shape.name(), state: prover.describe() });
             }
         }
@@ -188,40 +188,60 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
 }
 
 /// Something that a state leaves open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Question {
     Level(InputId),
     Compare(Comparison, ExprId, ExprId),
 }
 
 /// Answers questions, the same one always the same way, until told to advance.
+#[derive(Default)]
 struct Oracle {
     /// Level by input; fetched inputs are set when first asked.
     levels: Vec<u8>,
     /// Questions asked so far, with the current answer and the number of answers.
     choices: Vec<(Question, u8, u8)>,
+    /// The place of each question among them.
+    asked: HashMap<Question, usize>,
+    /// Questions answered in this state so far.
+    answered: usize,
 }
 
 impl Oracle {
     fn new(program: &Program) -> Self {
-        Self { levels: vec![0; program.inputs.len()], choices: Vec::new() }
+        Self { levels: vec![0; program.inputs.len()], ..Self::default() }
     }
 
     fn answer(&mut self, question: Question, count: u8) -> u8 {
-        if let Some((_, answer, _)) = self.choices.iter().find(|(q, ..)| *q == question) {
-            return *answer;
+        self.answered += 1;
+        if let Some(answer) = self.known(question) {
+            return answer;
         }
+        self.asked.insert(question, self.choices.len());
         self.choices.push((question, 0, count));
         0
     }
 
+    /// What was answered on this path, if the question was asked.
+    fn known(&self, question: Question) -> Option<u8> {
+        self.asked.get(&question).map(|place| self.choices[*place].1)
+    }
+
+    /// Forgets all paths.
+    fn restart(&mut self) {
+        self.choices.clear();
+        self.asked.clear();
+        self.answered = 0;
+    }
+
     /// Moves on to the next sequence of answers; false if that was the last.
     fn advance(&mut self) -> bool {
-        while let Some((_, answer, count)) = self.choices.last_mut() {
+        while let Some((question, answer, count)) = self.choices.last_mut() {
             *answer += 1;
             if *answer < *count {
                 return true;
             }
+            self.asked.remove(question);
             self.choices.pop();
         }
         false
@@ -234,10 +254,7 @@ struct Prover<'a, 'p> {
     pool: Pool,
     normaliser: Normaliser,
     oracle: Oracle,
-    /// The rows to look at in each state; `None` to look at all.
-    claims: Option<Claims>,
-    /// Rows whose guards fetch, which they may do in states that they do not claim.
-    fetching: Vec<usize>,
+    candidates: Candidates,
     /// Inputs that the plan declares but has not fetched on this path: code finds their first level
     /// or least value there. Empty while the program runs.
     absent: InputSet,
@@ -367,8 +384,9 @@ impl<'p> Prover<'_, 'p> {
     fn run_program(&mut self, state: usize) -> Run {
         let program = self.plan.program;
         let (mut fetched, absent) = (InputSet::default(), InputSet::default());
-        let mut places = (0, 0);
-        while let Some((index, row)) = self.candidate(state, &mut places) {
+        let mut places = Places::default();
+        while let Some(index) = self.candidates.next(state, &mut places) {
+            let row = &program.rows[index];
             if !self.holds(row.guard, &mut fetched) {
                 continue;
             }
@@ -380,23 +398,6 @@ impl<'p> Prover<'_, 'p> {
             return Run { row: Some(index), line: None, values: program.default.clone(), fetched, absent };
         }
         Run { row: None, line: None, values: program.default.clone(), fetched, absent }
-    }
-
-    /// The next row that is looked at in a state, after so many that claim it and so many that fetch.
-    fn candidate(&self, state: usize, (claimed, fetching): &mut (usize, usize)) -> Option<(usize, &'p Row)> {
-        let rows = &self.plan.program.rows;
-        let index = match &self.claims {
-            Some(claims) => match (claims.row(state, *claimed), self.fetching.get(*fetching).copied()) {
-                (Some(row), None) | (None, Some(row)) => row,
-                (Some(row), Some(other)) => row.min(other),
-                (None, None) => return None,
-            },
-            None => *claimed,
-        };
-        *fetching += usize::from(self.fetching.get(*fetching) == Some(&index));
-        let is_claim = self.claims.as_ref().is_none_or(|claims| claims.row(state, *claimed) == Some(index));
-        *claimed += usize::from(is_claim);
-        rows.get(index).map(|row| (index, row))
     }
 
     /// The plan, step by step, with the discipline of fetching checked.
@@ -552,10 +553,7 @@ impl<'p> Prover<'_, 'p> {
         match self.plan.pool.cond(condition) {
             Cond::Const(value) => Some(*value),
             Cond::Level(input, levels) => Some(levels.contains(self.oracle.levels[input.index()])),
-            Cond::Compare(op, a, b) => {
-                let asked = Question::Compare(*op, *a, *b);
-                self.oracle.choices.iter().find(|(q, ..)| *q == asked).map(|(_, answer, _)| *answer == 0)
-            }
+            Cond::Compare(op, a, b) => self.oracle.known(Question::Compare(*op, *a, *b)).map(|answer| answer == 0),
             Cond::Not(a) => self.decides(*a).map(|value| !value),
             Cond::And(parts) => match parts.iter().map(|part| self.decides(*part)).find(|d| *d != Some(true)) {
                 None => Some(true),

@@ -15,6 +15,7 @@ use super::prove::{Counterexample, Proof, Refusal};
 use super::reachable::reachable;
 use super::turn::Turn;
 use super::{Plan, Step, StepId, rounding};
+use crate::program::claims::Candidates;
 use crate::program::print::Printer;
 use crate::program::symbolic::{Machine, View};
 use crate::program::{ExprId, InputSet};
@@ -32,6 +33,7 @@ pub(super) fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         proof: Proof { states: states.len(), assumed: plan.assumed, paths: 0, identical: 0, rounding: Some(0.0) },
         errors: HashMap::new(),
         compares: compares(plan),
+        candidates: Candidates::new(program),
     };
     for state in &states {
         let turn = match plan.step(plan.behind_fetches()) {
@@ -69,6 +71,7 @@ struct Prover<'a, 'p> {
     errors: HashMap<ExprId, Option<f64>>,
     /// Whether the plan compares numbers.
     compares: bool,
+    candidates: Candidates,
 }
 
 /// Whether what follows the lookup compares numbers, or chooses between values.
@@ -101,7 +104,7 @@ impl Prover<'_, '_> {
             }
         }
         machine.take_looked_at();
-        let (row, line, want) = machine.run_to_line();
+        let (row, line, want) = machine.run_to_line(self.candidates.of(state));
         let needed = machine.take_looked_at();
         let got = self.run(machine, state, turn);
         machine.set_absent(InputSet::default());

@@ -69,13 +69,17 @@ fn guard(random: &mut Random, depth: usize) -> String {
 }
 
 fn value(random: &mut Random, depth: usize) -> String {
-    match random.below(if depth == 0 { 3 } else { 7 }) {
+    match random.below(if depth == 0 { 3 } else { 8 }) {
         0 => pick(random, &["x", "y", "1 - x", "0.25", "1 + x - y"]).to_owned(),
         1 => format!("{} * x - 0.5", 1 + random.below(3)),
         2 => pick(random, &["2 - x - y", "y - x", "0.5 * y"]).to_owned(),
         3 => format!("min({}, {})", value(random, depth - 1), value(random, depth - 1)),
         4 => format!("max({}, {})", value(random, depth - 1), value(random, depth - 1)),
         5 => format!("if side == left {{ {} }} else {{ {} }}", value(random, depth - 1), value(random, depth - 1)),
+        6 => {
+            let either = pick(random, &["near && x < 0.5 && far == left", "far != both || y < x || flag"]);
+            format!("if {either} {{ {} }} else {{ {} }}", value(random, depth - 1), value(random, depth - 1))
+        }
         _ => format!("({}) * 0.5", value(random, depth - 1)),
     }
 }
@@ -267,17 +271,67 @@ fn every_plan_of_random_tables_is_proved_and_right() {
     assert!(planned.iter().all(|count| *count >= 30), "{planned:?}");
 }
 
-/// A plan takes the case that the interpreter takes, at a point of each state.
-fn agrees(plan: &Plan<'_>, random: &mut Random) {
-    if !plan.shape.reports_case() {
-        return;
+/// A table with a fetched input for each of some cases, or one for all of them.
+fn fetching(cases: usize, fetched: usize, guard: impl Fn(usize, usize) -> String, value: &str) -> Program {
+    let inputs: Vec<String> = (0..fetched).map(|i| format!("\"q{i}\": Bool(fetched: (cost: 1))")).collect();
+    let rows =
+        (0..cases).map(|i| format!("Case(id: {}, when: \"{}\", value: \"{value}\")", i + 1, guard(i, i % fetched)));
+    let rows: Vec<String> = rows.collect();
+    program(&format!(
+        r#"Table(language: 1, name: "t", hit_policy: First,
+            inputs: {{"side": Bool(), "x": Range(from: 0, to: 1), "y": Range(from: 0, to: 1), {}}},
+            output: Number(), cases: [{}], default: 0)"#,
+        inputs.join(", "),
+        rows.join(", ")
+    ))
+}
+
+/// A condition that was found false in parts is not asked again: it once nested without end.
+#[test]
+fn a_choice_that_fetches_is_decided_once() {
+    for condition in ["x < 0.5 && y < 0.5 && q0", "x < 0.5 || y < 0.5 || q0", "!(x < y && side && q0) || q1 && x < 0.1"]
+    {
+        let value = format!("if {condition} {{ x }} else {{ y }}");
+        let program = fetching(3, 2, |i, q| format!("x < {i} * y && q{q}"), &value);
+        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch(LookupPlace::Constants)] {
+            Plan::proved(&program, shape).unwrap_or_else(|e| panic!("{e}"));
+        }
     }
+}
+
+/// Many guards that may fetch, in one state: their number costs neither stack nor, where later
+/// ones ask for other inputs, twice the steps for each.
+#[test]
+fn many_guards_may_fetch() {
+    for (cases, fetched) in [(40, 40), (300, 1), (300, 2)] {
+        let guard = |i: usize, q: usize| format!("x < {i} * y && q{q}");
+        let program = fetching(cases, fetched, guard, "x");
+        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch(LookupPlace::Constants)] {
+            let plan = Plan::new(&program, shape).unwrap_or_else(|e| panic!("{e}"));
+            assert!(plan.steps.len() <= 12 * cases, "{shape} of {cases}: {} steps", plan.steps.len());
+        }
+    }
+    let long: Vec<String> = (0..1000).map(|i| format!("(\"{i}\", \"x < {i} * y\")")).collect();
+    let text = format!(
+        r#"Table(language: 1, name: "t", hit_policy: First,
+            inputs: {{"x": Range(from: 0, to: 1), "y": Range(from: 0, to: 1)}},
+            output: Number(), cases: [Case(id: 1, when: true, lines: [{}, 0])], default: 0)"#,
+        long.join(", ")
+    );
+    Plan::proved(&program(&text), Shape::Ladder).unwrap_or_else(|e| panic!("{e}"));
+}
+
+/// At a point of each state a plan gives what the interpreter gives, and takes its case.
+pub(super) fn agrees(plan: &Plan<'_>, random: &mut Random) {
     let executor = Executor::new(plan);
     let mut interpreter = Interpreter::<f32>::new(plan.program);
     for state in 0..plan.program.states.count() {
         let point = point(random, plan.program, state);
         let want = interpreter.evaluate(&point).unwrap_or_else(|e| panic!("{e:?}"));
-        assert_eq!(executor.run(&point).0, want.row, "{} at {point:?}", plan.shape);
+        let (row, values, _) = executor.run(&point);
+        assert!(!plan.shape.reports_case() || row == want.row, "{} at {point:?}", plan.shape);
+        let near = values.iter().zip(&want.values).all(|(a, b)| (a - b).abs() <= 1e-5);
+        assert!(near, "{} at {point:?}: {values:?}, not {:?}", plan.shape, want.values);
     }
 }
 

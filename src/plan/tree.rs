@@ -12,6 +12,7 @@
 //! the meaning: no tree over the state can save one, so their cost is the same in
 //! all. It is said beside the number of tests.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 
 use super::build::{Arms, Builder, Result};
@@ -46,6 +47,7 @@ pub(super) fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
         levels: levels(setting),
         ways,
         shares: &setting.shares,
+        sums: RefCell::new(vec![0.0; builder.len()]),
         digits: program.states.digits(),
         known: HashMap::new(),
         looks: 0,
@@ -131,6 +133,8 @@ struct Planner<'a> {
     /// Where each state must come to.
     ways: Vec<StepId>,
     shares: &'a [f64],
+    /// By step, the share of the states that go there, while it is added up; otherwise zero.
+    sums: RefCell<Vec<f64>>,
     digits: &'a [(InputId, usize)],
     /// The best test of each list of states, and the expected number of tests from there on.
     known: HashMap<Vec<u32>, (Option<Question>, f64)>,
@@ -254,13 +258,20 @@ impl Planner<'_> {
     /// How open it is where some states go, in bits times their share: the
     /// least that any tests need to find out.
     fn entropy(&self, states: &[u32]) -> f64 {
-        let mut shares: HashMap<StepId, f64> = HashMap::new();
+        let mut sums = self.sums.borrow_mut();
+        let mut met = Vec::new();
         for state in states {
-            *shares.entry(self.ways[*state as usize]).or_default() += self.shares[*state as usize];
+            let (way, share) = (self.ways[*state as usize].0 as usize, self.shares[*state as usize]);
+            if sums[way] == 0.0 {
+                met.push(way);
+            }
+            sums[way] += share;
         }
         let all = self.share(states);
-        // In order: sums of floating-point numbers depend on it.
-        let mut shares: Vec<f64> = shares.into_values().filter(|share| *share > 0.0).collect();
+        // In order: sums of floating-point numbers depend on it. A way that was met before it had a
+        // share is met again, and then has none left.
+        let shares = met.into_iter().map(|way| std::mem::take(&mut sums[way]));
+        let mut shares: Vec<f64> = shares.filter(|share| *share > 0.0).collect();
         shares.sort_by(f64::total_cmp);
         shares.into_iter().map(|share| share * libm::log2(all / share)).sum()
     }

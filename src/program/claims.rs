@@ -69,6 +69,49 @@ impl Claims {
     }
 }
 
+/// The rows to look at in each state: those that claim it, and those that fetch before they say no.
+pub(crate) struct Candidates {
+    /// `None` to look at all rows.
+    claims: Option<Claims>,
+    fetching: Vec<usize>,
+    rows: usize,
+}
+
+/// How many of the rows that claim a state, and of those that fetch, were looked at.
+#[derive(Default)]
+pub(crate) struct Places {
+    claimed: usize,
+    fetching: usize,
+}
+
+impl Candidates {
+    pub(crate) fn new(program: &Program) -> Self {
+        let fetches =
+            |row: &usize| !program.pool.cond_facts(program.rows[*row].guard).inputs.and(program.fetched).is_empty();
+        let rows = program.rows.len();
+        Self { claims: Claims::new(program), fetching: (0..rows).filter(fetches).collect(), rows }
+    }
+
+    /// The next row of a state.
+    pub(crate) fn next(&self, state: usize, places: &mut Places) -> Option<usize> {
+        let Some(claims) = &self.claims else {
+            places.claimed += 1;
+            return (places.claimed <= self.rows).then_some(places.claimed - 1);
+        };
+        let (claimed, fetching) = (claims.row(state, places.claimed), self.fetching.get(places.fetching).copied());
+        let row = claimed.into_iter().chain(fetching).min()?;
+        places.claimed += usize::from(claimed == Some(row));
+        places.fetching += usize::from(fetching == Some(row));
+        Some(row)
+    }
+
+    /// The rows of a state, in order.
+    pub(crate) fn of(&self, state: usize) -> impl Iterator<Item = usize> + '_ {
+        let mut places = Places::default();
+        std::iter::from_fn(move || self.next(state, &mut places))
+    }
+}
+
 /// Goes through the states in which a condition may hold.
 pub(crate) struct Boxes<'p> {
     program: &'p Program,

@@ -449,10 +449,13 @@ impl<'p> Machine<'p> {
         }
     }
 
-    /// The row taken, its line, and the result on this path.
-    pub(crate) fn run_to_line(&mut self) -> (Option<usize>, Option<usize>, Vec<ExprId>) {
+    /// The row taken, of those that can be, its line, and the result on this path.
+    pub(crate) fn run_to_line(
+        &mut self,
+        rows: impl IntoIterator<Item = usize>,
+    ) -> (Option<usize>, Option<usize>, Vec<ExprId>) {
         let program = self.program;
-        let row = program.rows.iter().position(|row| self.holds(row.guard, View::PLAIN));
+        let row = rows.into_iter().find(|row| self.holds(program.rows[*row].guard, View::PLAIN));
         let lines = row.map_or(&[][..], |row| &program.rows[row].lines);
         let line = lines.iter().position(|line| self.holds(line.condition, View::PLAIN));
         let values = line.map_or(&program.default, |line| &lines[line].values);

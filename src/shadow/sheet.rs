@@ -35,11 +35,9 @@ pub fn case_counts(program: &Program, visibility: &Visibility) -> Vec<CaseCount>
     cases.chain([default]).filter(|count| count.pixels > 0).collect()
 }
 
-/// The colour of a case: neighbours in number are far apart in hue.
-fn colour(case: u32) -> Rgb<u8> {
-    if case == Visibility::DEFAULT {
-        return Rgb([255, 255, 255]);
-    }
+/// The colour of a case, `None` being the default: neighbours in number are far apart in hue.
+pub fn case_colour(case: Option<u32>) -> Rgb<u8> {
+    let Some(case) = case else { return Rgb([255, 255, 255]) };
     // Steps of the golden angle, at three levels of brightness.
     let hue = (f64::from(case) * 137.508) % 360.0 / 60.0;
     let value = [0.95, 0.75, 0.55][(case % 3) as usize];
@@ -64,7 +62,8 @@ pub fn cases(picture: &RgbImage, program: &Program, visibility: &Visibility) -> 
                 let grey = ((2 * r + 5 * g + b) / 16 + 60) as u8;
                 Rgb([grey; 3])
             }
-            case => colour(case),
+            Visibility::DEFAULT => case_colour(None),
+            case => case_colour(Some(case)),
         };
     }
     let counts = case_counts(program, visibility);
@@ -78,7 +77,7 @@ pub fn cases(picture: &RgbImage, program: &Program, visibility: &Visibility) -> 
     label(&mut text, 10, 22, 14, &head);
     for (index, count) in counts.iter().enumerate() {
         let (x, y) = (10 + index as u32 / rows * entry, 34 + index as u32 % rows * line);
-        let Rgb([r, g, b]) = colour(count.id.unwrap_or(Visibility::DEFAULT));
+        let Rgb([r, g, b]) = case_colour(count.id);
         let _ =
             write!(text, r##"<rect x="{x}" y="{y}" width="14" height="14" fill="rgb({r},{g},{b})" stroke="#888"/>"##);
         let row = count.id.and_then(|id| program.rows.iter().find(|row| row.id == id));

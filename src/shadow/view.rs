@@ -56,14 +56,17 @@ enum Origin {
 
 /// A plane of the world as depth over the square of a light: `depth + u * du + v * dv`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Plane {
+pub struct Plane {
     depth: f64,
-    pub(crate) du: f64,
-    pub(crate) dv: f64,
+    /// Change of the depth from the left border to the right one.
+    pub du: f64,
+    /// Change of the depth from the top to the bottom.
+    pub dv: f64,
 }
 
 impl Plane {
-    pub(crate) fn at(&self, u: f64, v: f64) -> f64 {
+    /// The depth at a place of the square.
+    pub fn at(&self, u: f64, v: f64) -> f64 {
         self.depth + u * self.du + v * self.dv
     }
 }
@@ -174,7 +177,7 @@ impl View {
     }
 
     /// The plane through three places, as depth over the square; `None` if it is seen edge-on.
-    pub(crate) fn plane(&self, corners: [DVec3; 3]) -> Option<Plane> {
+    pub fn plane(&self, corners: [DVec3; 3]) -> Option<Plane> {
         let [a, b, c] = corners;
         let normal = (b - a).cross(c - a);
         // Planes are mapped by the transposed inverse.

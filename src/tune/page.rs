@@ -38,7 +38,7 @@ pub fn page(program: &Program, tuning: &Tuning<'_>, weights: &Weights) -> String
         }
         h2 { "Times" }
         figure { (PreEscaped(times(tuning))) }
-        @for kind in Kind::ALL { (ranking(tuning, kind)) }
+        @for (kind, floor) in Kind::ALL.into_iter().zip(&tuning.floor) { (ranking(tuning, kind, floor.median())) }
         h2 { "What it should cost" }
         (estimates(tuning))
         (whole_shaders(tuning))
@@ -54,9 +54,9 @@ pub fn page(program: &Program, tuning: &Tuning<'_>, weights: &Weights) -> String
         h2 { "Frequencies" }
         figure { (PreEscaped(chart(&tuning.profile.profile))) }
         h2 { "The decision" }
-        p { "The plan " code { (name) } ": tests are white, fetches yellow, cases blue."
+        p { "The plan " code { (name) } ": tests are white, fetches yellow, cases blue. Where a test holds it goes on to the right, else below; a number in brackets is a step that several others lead to."
             @if !drawn.complete { " It is too large to be drawn as a whole; this is how it begins." } }
-        figure { (PreEscaped(inline(&drawn.svg))) }
+        figure.large { (PreEscaped(&drawn.svg)) }
     };
     picture::page(&format!("Tuning of {}", program.name), body)
 }
@@ -65,14 +65,10 @@ fn row(name: &str, value: &str) -> Markup {
     html! { tr { th { (name) } td { (value) } } }
 }
 
-/// An SVG document as part of a page: without its XML declaration.
-fn inline(svg: &str) -> &str {
-    svg.find("<svg").map_or(svg, |start| &svg[start..])
-}
-
-fn ranking(tuning: &Tuning<'_>, kind: Kind) -> Markup {
+fn ranking(tuning: &Tuning<'_>, kind: Kind, floor: f64) -> Markup {
     html! {
         h3 { (kind.name()) " inputs" }
+        p.soft { "Reading and writing them alone, the floor, takes " (format!("{:.1}", 1e6 * floor)) " µs." }
         table {
             tr { th { "plan" } th.n { "µs" } th.n { "± µs" } th.n { "to the ladder" } th.n { "to the floor" } th.n { "estimate" } th { "" } }
             @for line in tuning.ranking(kind) {

@@ -1,0 +1,18 @@
+//! Compiles the tables when the program is built: five plans of each into WGSL, and into Rust what their cases
+//! are called.
+
+use umbrage::plan::{LookupPlace, Shape};
+
+fn main() -> Result<(), umbrage::build::Errors> {
+    umbrage::build::Tables::new("../../tables/rsmss.ron")
+        .also("../../tables/smsr.ron")
+        .wgsl()
+        .rust()
+        .plan(Shape::Ladder)
+        .plan(Shape::Ordered)
+        .plan(Shape::Gathered)
+        .plan(Shape::Switch(LookupPlace::Constants))
+        .plan(Shape::Tree)
+        .compile()?;
+    Ok(())
+}

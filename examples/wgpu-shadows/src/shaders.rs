@@ -1,0 +1,217 @@
+//! The texts of the last pass, and the tables in them: those that the build
+//! script compiled, until the file of one changes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use umbrage::build::{self, Options, Request};
+use umbrage::emit::Target;
+use umbrage::plan::{LookupPlace, Shape};
+use umbrage::shadow::Technique;
+
+/// The plans to choose from. The build script makes the same.
+pub(crate) const PLANS: [Shape; 5] =
+    [Shape::Ladder, Shape::Ordered, Shape::Gathered, Shape::Switch(LookupPlace::Constants), Shape::Tree];
+
+/// The cases of the tables, by name, as the build script left them in Rust.
+mod built {
+    include!(concat!(env!("OUT_DIR"), "/rsmss/ladder.rs"));
+    include!(concat!(env!("OUT_DIR"), "/smsr/ladder.rs"));
+}
+
+/// The WGSL of a table that the build script compiled.
+macro_rules! compiled {
+    ($table:literal, $plan:literal) => {
+        Some(include_str!(concat!(env!("OUT_DIR"), "/", $table, "/", $plan, ".wgsl")))
+    };
+}
+
+/// The search along silhouettes, and what the techniques do with it: those texts of Umbrage's own renderer that
+/// stand around its tables.
+macro_rules! skeleton {
+    ($($name:literal),*) => {
+        concat!($(include_str!(concat!("../../../src/shadow/gpu/wgsl/", $name, ".wgsl"))),*)
+    };
+}
+
+const FRAME: &str = skeleton!("frame");
+const SEARCH: &str = concat!("const READ_DOMINANCE: bool = true;\n", skeleton!("reads_gathered", "edges", "dominance"));
+const LIGHT: &str = include_str!("wgsl/light.wgsl");
+
+/// A table, in all plans.
+#[derive(Debug, Clone)]
+pub(crate) struct Table {
+    /// Its WGSL by plan, for the plans that suit it. The first one suits every table.
+    modules: [Option<String>; PLANS.len()],
+    /// What its cases are called.
+    pub(crate) cases: BTreeMap<u32, String>,
+    /// Whether it was read while the program runs.
+    pub(crate) reloaded: bool,
+}
+
+impl Table {
+    fn built(modules: [Option<&str>; PLANS.len()], cases: &[(u32, &str)]) -> Self {
+        let cases = cases.iter().map(|(id, name)| (*id, (*name).to_owned())).collect();
+        Self { modules: modules.map(|text| text.map(str::to_owned)), cases, reloaded: false }
+    }
+
+    /// Whether a plan suits it.
+    pub(crate) fn suits(&self, plan: usize) -> bool {
+        self.modules[plan].is_some()
+    }
+
+    /// Checks, proves and compiles the table in a file, as the build script does.
+    ///
+    /// Also returns the table's name; the error is all that is wrong, as it is meant to be read.
+    fn compile(path: &Path) -> Result<(String, Self), String> {
+        let options =
+            Options { shapes: PLANS.to_vec(), targets: vec![Target::Wgsl], auto: false, ..Options::default() };
+        let batch = build::run(&Request { paths: vec![path.to_owned()], options, ..Request::default() });
+        let (false, Some((programs, built))) = (batch.failed(), batch.tables.first()) else {
+            let messages: Vec<String> = batch.messages.iter().map(ToString::to_string).collect();
+            return Err(messages.join("\n"));
+        };
+        let module = |plan: Shape| {
+            let path = Path::new(&built.table).join(plan.name()).with_extension("wgsl");
+            let file = built.files.iter().find(|file| file.path == path)?;
+            Some(String::from_utf8_lossy(&file.contents).into_owned())
+        };
+        let rows = programs.iter().flat_map(|program| &program.rows);
+        let cases = rows.map(|row| (row.id, row.doc.clone())).collect();
+        let table = Self { modules: PLANS.map(module), cases, reloaded: true };
+        Ok((built.table.clone(), table))
+    }
+}
+
+/// The tables in use, by name.
+#[derive(Debug, Clone)]
+pub(crate) struct Tables(BTreeMap<String, Table>);
+
+impl Tables {
+    /// Those that the build script compiled.
+    pub(crate) fn built() -> Self {
+        let rsmss = [
+            compiled!("rsmss", "ladder"),
+            compiled!("rsmss", "ordered"),
+            compiled!("rsmss", "gathered"),
+            compiled!("rsmss", "switch"),
+            compiled!("rsmss", "tree"),
+        ];
+        // It fetches nothing that could be gathered.
+        let smsr = [
+            compiled!("smsr", "ladder"),
+            compiled!("smsr", "ordered"),
+            None,
+            compiled!("smsr", "switch"),
+            compiled!("smsr", "tree"),
+        ];
+        let rsmss = Table::built(rsmss, &built::rsmss::RSMSS_CASES);
+        let smsr = Table::built(smsr, &built::smsr::SMSR_CASES);
+        Self(BTreeMap::from([("rsmss".to_owned(), rsmss), ("smsr".to_owned(), smsr)]))
+    }
+
+    /// These, but with the one in a file; and its name.
+    pub(crate) fn with(&self, path: &Path) -> Result<(Self, String), String> {
+        let (name, table) = Table::compile(path)?;
+        let mut tables = self.clone();
+        match tables.0.get_mut(&name) {
+            Some(place) => *place = table,
+            None => return Err(format!("error: {} is the table `{name}`; here are rsmss and smsr", path.display())),
+        }
+        Ok((tables, name))
+    }
+
+    /// The table of a technique, if it has one.
+    pub(crate) fn of(&self, technique: Technique) -> Option<&Table> {
+        self.0.get(technique.table()?)
+    }
+
+    /// A plan where it suits the table of a technique, the first one elsewhere.
+    pub(crate) fn suitable(&self, technique: Technique, plan: usize) -> usize {
+        if self.of(technique).is_some_and(|table| table.suits(plan)) { plan } else { 0 }
+    }
+
+    /// The WGSL of the last pass.
+    pub(crate) fn text(&self, technique: Technique, plan: usize) -> String {
+        let table = self.of(technique).and_then(|table| table.modules[plan].as_deref()).unwrap_or_default();
+        let own = match technique {
+            Technique::Hard => skeleton!("hard"),
+            Technique::Smsr => concat!(skeleton!("smsr", "single"), include_str!("wgsl/smsr_key.wgsl")),
+            Technique::Rsmss => concat!(skeleton!("rsmss", "single"), include_str!("wgsl/rsmss_key.wgsl")),
+            Technique::Rpcf => concat!(skeleton!("rsmss", "rpcf"), include_str!("wgsl/rsmss_key.wgsl")),
+            _ => skeleton!("pcf"),
+        };
+        let search = if table.is_empty() { "" } else { SEARCH };
+        [FRAME, search, own, table, LIGHT].concat()
+    }
+}
+
+/// Files of tables, looked at now and then.
+#[derive(Debug)]
+pub(crate) struct Watch(Vec<(PathBuf, Option<SystemTime>)>);
+
+impl Watch {
+    /// The file that is asked for, or those that the build script read, where they still are.
+    pub(crate) fn new(table: Option<&Path>) -> Self {
+        let tables = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tables");
+        let paths = match table {
+            Some(path) => vec![path.to_owned()],
+            None => ["rsmss.ron", "smsr.ron"].iter().map(|name| tables.join(name)).collect(),
+        };
+        Self(paths.into_iter().map(|path| (path.clone(), changed(&path))).collect())
+    }
+
+    /// The files that changed since this was last asked.
+    pub(crate) fn changed(&mut self) -> Vec<PathBuf> {
+        let mut news = Vec::new();
+        for (path, known) in &mut self.0 {
+            // A file that is being replaced may not be there for a moment.
+            if let Some(now) = changed(path)
+                && *known != Some(now)
+            {
+                *known = Some(now);
+                news.push(path.clone());
+            }
+        }
+        news
+    }
+}
+
+fn changed(path: &Path) -> Option<SystemTime> {
+    std::fs::metadata(path).ok()?.modified().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::TECHNIQUES;
+
+    #[test]
+    fn tables_compiled_here_are_those_of_the_build_script() {
+        let built = Tables::built();
+        for name in ["rsmss", "smsr"] {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tables").join(name).with_extension("ron");
+            let (read, found) = built.with(&path).unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(found, name);
+            let (built, read) = (&built.0[name], &read.0[name]);
+            assert_eq!(built.cases, read.cases);
+            assert!(read.reloaded && !built.reloaded);
+            // The header names the options, which are others.
+            let body = |text: &Option<String>| {
+                text.as_deref().and_then(|text| text.split_once("\n\n")).map(|(_, body)| body.to_owned())
+            };
+            for (plan, (built, read)) in PLANS.iter().zip(built.modules.iter().zip(&read.modules)) {
+                assert!(body(built) == body(read), "{name}, {}", plan.name());
+            }
+        }
+    }
+
+    #[test]
+    fn only_techniques_with_a_table_search() {
+        for technique in TECHNIQUES {
+            let text = Tables::built().text(technique, 0);
+            assert_eq!(text.contains("fn table_key"), technique.table().is_some(), "{technique}");
+        }
+    }
+}
