@@ -58,3 +58,13 @@ pub mod table;
 #[cfg(feature = "gpu")]
 pub mod tune;
 pub mod tuned;
+
+/// The Rust in documents, compiled like the examples of this crate. That of `docs/build.md` and `docs/tutorial.md`
+/// needs what a build script makes, and is built and run by tests.
+#[cfg(doctest)]
+mod documents {
+    #[doc = include_str!("../README.md")]
+    mod readme {}
+    #[doc = include_str!("../docs/tuning.md")]
+    mod tuning {}
+}

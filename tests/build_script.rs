@@ -44,10 +44,15 @@ impl Roof {
     }
 
     fn cargo(&self, arguments: &[&str]) -> Output {
+        self.cargo_with_copies(arguments, "")
+    }
+
+    /// The same, with a directory for copies of generated files.
+    fn cargo_with_copies(&self, arguments: &[&str], copies: &str) -> Output {
         let place = self.0.parent().unwrap();
         let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         cargo.args(arguments).arg("--offline").current_dir(&self.0);
-        cargo.env("CARGO_TARGET_DIR", place.join("target")).env("UMBRAGE_OUT_DIR", "");
+        cargo.env("CARGO_TARGET_DIR", place.join("target")).env("UMBRAGE_OUT_DIR", copies);
         cargo.env_remove("RUSTFLAGS").env("CARGO_TERM_COLOR", "never");
         cargo.output().unwrap()
     }
@@ -124,6 +129,23 @@ fn the_documented_example_works_and_notices_what_changes() {
     let snow = std::fs::read_to_string(roof.0.join("tables/snow.ron")).unwrap();
     roof.file("tables/snow.ron", &snow);
     roof.succeeds(&["build"]);
+    assert_eq!(Roof::written("snow/ordered.rs"), before);
+
+    // Copies for people, the same to the byte; and nothing says where any of this lies.
+    let copies = roof.0.parent().unwrap().join("copies");
+    let output = roof.cargo_with_copies(&["build"], copies.to_str().unwrap());
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(copies.join("roof/snow")).unwrap() {
+        let path = entry.unwrap().path();
+        let (name, bytes) = (path.file_name().unwrap().to_owned(), std::fs::read(&path).unwrap());
+        assert_eq!(std::fs::read(Roof::made()[0].join("snow").join(&name)).unwrap(), bytes);
+        let own = root().to_str().unwrap();
+        assert!(!String::from_utf8_lossy(&bytes).contains(own), "{name:?} holds the path {own}");
+        names.push(name.into_string().unwrap());
+    }
+    names.sort();
+    assert_eq!(names, ["ordered.330.glsl", "ordered.rs", "ordered.wgsl"]);
     assert_eq!(Roof::written("snow/ordered.rs"), before);
 
     // Another table; a large one, without optimisation, on the stack that a build script has.

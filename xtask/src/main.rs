@@ -16,6 +16,7 @@ Usage: cargo xtask <task> [arguments]
                                  ARGS go to the main `cargo test`
   ci [ARGS]                      formatting, lints and documentation, then test
   features                       check that each feature compiles alone
+  msrv                           check with the oldest Rust that is promised, if rustup has it
   licences                       check the licences of all packages against deny.toml
   package                        build what would be published, from what would be in it
   bless                          rewrite generated/ and the snapshots from what the code does now
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
         "test" => test(&mut steps, rest),
         "ci" => lint(&mut steps).and_then(|()| test(&mut steps, rest)),
         "features" => features(&mut steps),
+        "msrv" => oldest_rust(&mut steps),
         "licences" => licences::check(include_str!("../../deny.toml")),
         "package" => package(&mut steps),
         "bless" => bless(&mut steps),
@@ -98,6 +100,26 @@ fn features(steps: &mut Steps) -> Result {
         check.args(["--", "-D", "warnings"]);
         let name = if feature.is_empty() { "no feature".to_owned() } else { format!("feature {feature}") };
         steps.run(&name, check)?;
+    }
+    Ok(())
+}
+
+/// The library, alone and with its default features, by the oldest toolchain that `Cargo.toml` promises. In a target
+/// directory of its own, so that nothing else has to be built again.
+fn oldest_rust(steps: &mut Steps) -> Result {
+    let manifest = include_str!("../../Cargo.toml");
+    let promised = manifest.split_once("rust-version = \"").and_then(|(_, rest)| rest.split_once('"'));
+    let Some((version, _)) = promised else {
+        eprintln!("error: Cargo.toml does not say `rust-version`");
+        return Err(1);
+    };
+    for features in [&["--no-default-features"][..], &[]] {
+        let mut check = Command::new("rustup");
+        check.args(["run", version, "cargo", "check", "--locked", "--package", "umbrage"]).args(features);
+        check.args(["--target-dir", "target/msrv"]);
+        // `cargo xtask` runs under a toolchain, and would hand it on.
+        check.env_remove("RUSTUP_TOOLCHAIN").env_remove("CARGO").env_remove("RUSTC");
+        steps.run(&format!("Rust {version} {}", features.concat()), check)?;
     }
     Ok(())
 }
