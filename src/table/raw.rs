@@ -295,13 +295,19 @@ fn lower_first(text: &str) -> String {
     }
 }
 
-/// The known name closest to a misspelt one, if any is close.
+/// The known name closest to a misspelt one, if any is close. Wrong capitals are the smallest mistake.
 pub(crate) fn nearest<'n>(found: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     if found.len() > 64 {
         return None;
     }
     let limit = (found.chars().count() / 3).max(1);
-    known.into_iter().map(|k| (distance(found, k), k)).filter(|(d, _)| *d <= limit).min().map(|(_, k)| k)
+    let folded = found.to_lowercase();
+    known
+        .into_iter()
+        .map(|k| (distance(&folded, &k.to_lowercase()), distance(found, k), k))
+        .filter(|(d, ..)| *d <= limit)
+        .min()
+        .map(|(_, _, k)| k)
 }
 
 /// Levenshtein distance.
@@ -318,4 +324,17 @@ fn distance(a: &str, b: &str) -> usize {
         }
     }
     row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_name_in_the_wrong_capitals_is_the_nearest() {
+        assert_eq!(nearest("b", ["A", "B", "b1"]), Some("B"));
+        assert_eq!(nearest("LO_ENDS", ["Lo", "Lo_ends"]), Some("Lo_ends"));
+        assert_eq!(nearest("sine", ["sin", "cos"]), Some("sin"));
+        assert_eq!(nearest("tangent", ["sin", "cos"]), None);
+    }
 }
