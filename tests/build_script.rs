@@ -68,7 +68,9 @@ impl Roof {
     fn made() -> Vec<PathBuf> {
         let build = Path::new(env!("CARGO_TARGET_TMPDIR")).join("build_script/target/debug/build");
         let Ok(entries) = std::fs::read_dir(build) else { return Vec::new() };
-        let paths = entries.map(|entry| entry.unwrap().path().join("out"));
+        let entries = entries.map(|entry| entry.unwrap());
+        let own = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with("roof-"));
+        let paths = own.map(|entry| entry.path().join("out"));
         paths.filter(|path| path.join("umbrage.stamp").exists()).collect()
     }
 
@@ -165,4 +167,21 @@ fn the_documented_example_works_and_notices_what_changes() {
         assert!(said.contains(expected), "{expected}: {said}");
     }
     assert_eq!(Roof::written("snow/ordered.rs"), before);
+}
+
+/// The example is built by its own script, and does what its tests expect.
+#[test]
+fn the_terrain_is_built_by_its_own_script() {
+    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("build_script");
+    let terrain = Roof(place.join("terrain"));
+    let example = root().join("examples/terrain");
+    let read = |name: &str| std::fs::read_to_string(example.join(name)).unwrap();
+    for name in ["build.rs", "src/main.rs", "src/map.txt", "tables/terrain.ron"] {
+        terrain.file(name, &read(name));
+    }
+    let path = format!("path = {:?}", root());
+    terrain.file("Cargo.toml", &(read("Cargo.toml").replace("path = \"../..\"", &path) + "\n[workspace]\n"));
+    terrain.file("Cargo.lock", &std::fs::read_to_string(root().join("Cargo.lock")).unwrap());
+    let (said, _) = terrain.succeeds(&["test"]);
+    assert!(said.contains("test result: ok. "), "{said}");
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::plan::{self, PlanArgument};
-use super::report::{Format, Report};
+use super::report::{Format, Report, plural};
 use super::watch::Watched;
 use super::{Error, Outcome, Result, levels, parse_target};
 use crate::build::{self, Built, Options, Request};
@@ -124,17 +124,13 @@ fn summary(
     for (programs, built) in done {
         let Some(program) = programs.first() else { continue };
         if program.function.is_some() {
-            let examples: usize = programs.iter().map(|program| program.examples.len()).sum();
-            writeln!(out, "{}: {} functions, {examples} examples hold", program.source.name, programs.len())?;
+            let examples = plural(programs.iter().map(|program| program.examples.len()).sum(), "example");
+            let functions = plural(programs.len(), "function");
+            writeln!(out, "{}: {functions}, {examples} run", program.source.name)?;
         } else {
-            let (cases, states) = (program.rows.len(), program.states.count());
-            writeln!(
-                out,
-                "{}: {cases} cases, {} inputs, {states} states, {} examples hold",
-                program.source.name,
-                program.inputs.len(),
-                program.examples.len()
-            )?;
+            let (cases, states) = (plural(program.rows.len(), "case"), plural(program.states.count(), "state"));
+            let (inputs, examples) = (plural(program.inputs.len(), "input"), plural(program.examples.len(), "example"));
+            writeln!(out, "{}: {cases}, {inputs}, {states}, {examples} run", program.source.name)?;
         }
         for plan in &built.plans {
             let chosen = match plan.chosen_on.as_slice() {

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::report::{self, Format, Report};
+use super::report::{self, Format, Report, plural};
 use super::{Outcome, Result, levels};
 use crate::analyse::{self, Levels};
 use crate::build;
@@ -119,8 +119,4 @@ fn show(out: &mut impl Write, report: &Report, failure: &Failure) -> Result<Outc
         Some(Severity::Warning) => Outcome::Findings,
         Some(Severity::Note) | None => Outcome::Clean,
     })
-}
-
-fn plural(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

@@ -68,7 +68,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         if !arguments.table_only {
             writeln!(out, "\nAdd to Cargo.toml:\n\n  [build-dependencies]")?;
             writeln!(out, "  umbrage = {{ version = \"{}\", default-features = false }}", env!("CARGO_PKG_VERSION"))?;
-            writeln!(out, "\nand to the program:\n")?;
+            writeln!(out, "\n(or `path = \"../umbrage\"` for a copy of its repository), and to the program:\n")?;
             writeln!(
                 out,
                 "  const SHADER: &str = include_str!(concat!(env!(\"OUT_DIR\"), \"/{name}/ordered.wgsl\"));"

@@ -107,6 +107,11 @@ fn object(source: &Source, diagnostic: &Diagnostic) -> Value {
     })
 }
 
+/// A count with its noun.
+pub(super) fn plural(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
