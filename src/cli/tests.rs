@@ -22,7 +22,8 @@ fn texts() -> Vec<(PathBuf, String)> {
 /// at a distance behind it that may be a description, once with and once without that.
 fn readings(line: &str) -> Option<[Vec<String>; 2]> {
     let line = line.trim().trim_start_matches("$ ");
-    let line = match line.strip_prefix("cargo run ") {
+    // An example of the repository is another program.
+    let line = match line.strip_prefix("cargo run ").filter(|rest| !rest.contains("-p ")) {
         Some(rest) => format!("umbrage {}", rest.split_once("-- ")?.1),
         None => line.to_owned(),
     };
