@@ -164,12 +164,13 @@ fn plans_that_a_table_is_too_large_for_are_named() {
     // Some of its broad cases are never taken, which is a warning.
     let said = place.run("check large.ron");
     assert_eq!(said.code, Some(1), "{}", said.out);
-    let said = place.run("build large.ron --plan ladder,switch,orbit --target wgsl");
+    let said = place.run("build large.ron --plan ladder,switch,orbit,tree --target wgsl");
     assert_eq!(said.code, Some(1), "{}", said.err);
     let line = |name: &str| said.out.lines().find(|line| line.trim_start().starts_with(name)).unwrap_or_default();
     assert!(line("ladder").contains("proved equal to the table on 32768 states"), "{}", said.out);
     let reason = "left out: its key has 15 bits, and the lookup of this plan has room for 12; use `switch_buffer`";
     assert!(line("switch").contains(reason), "{}", said.out);
+    assert!(line("tree").contains("32768 are more than 16384; use `ladder`"), "{}", said.out);
     assert!(line("orbit").contains("left out: it declares no symmetries"), "{}", said.out);
     assert!(place.path("generated/synthetic_1400/ladder.wgsl").exists());
     assert!(!place.path("generated/synthetic_1400/switch.wgsl").exists());

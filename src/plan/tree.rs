@@ -26,7 +26,7 @@ use crate::program::{InputId, LevelSet};
 /// Most states that are looked at, over all nodes, in the search for the best tree.
 const MAX_LOOKS: usize = 4_000_000;
 /// Most states of a table for a tree at all.
-const MAX_STATES: usize = 1 << 17;
+const MAX_STATES: usize = 1 << 14;
 
 /// A graph of tests that ends where the way is clear.
 pub(super) fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
