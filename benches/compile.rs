@@ -8,8 +8,9 @@ mod synthetic;
 
 use divan::Bencher;
 use umbrage::emit::{self, Target};
-use umbrage::plan::{LookupPlace, Plan, Proved, Shape, prove};
+use umbrage::plan::{LookupPlace, Plan, Proved, Shape};
 use umbrage::program::Program;
+use umbrage::prove::exact;
 use umbrage::table::Table;
 
 const TABLES: [&str; 2] = ["tables/smsr.ron", "tables/rsmss.ron"];
@@ -51,7 +52,7 @@ fn plan(bencher: Bencher<'_, '_>, shape: Shape) {
 fn prove(bencher: Bencher<'_, '_>, shape: Shape) {
     let program = program(TABLES[1]);
     let plan = Plan::new(&program, shape).unwrap_or_else(|error| panic!("{error}"));
-    bencher.bench(|| prove::prove(&plan).unwrap_or_else(|error| panic!("{error:?}")).paths);
+    bencher.bench(|| exact::prove(&plan).unwrap_or_else(|error| panic!("{error:?}")).paths);
 }
 
 #[divan::bench(args = TABLES, consts = [0, 1])]

@@ -10,7 +10,8 @@ use std::process::Command;
 use std::time::Instant;
 
 use umbrage::diag::{Failure, Source};
-use umbrage::emit::{self, harness::Entry};
+use umbrage::emit;
+use umbrage::emit::kernel::columns::Entry;
 use umbrage::eval::{Batch, Columns, Results};
 use umbrage::gpu::bench::{Timed, Workload};
 use umbrage::gpu::timing::{Protocol, Stopwatch, Times, interleaved};

@@ -39,22 +39,24 @@ pub mod explain;
 pub mod format;
 #[cfg(feature = "gpu")]
 pub mod gpu;
-#[cfg(feature = "render")]
-pub mod light;
 #[cfg(feature = "report")]
 pub mod picture;
 pub mod plan;
+pub mod points;
 pub mod profile;
 pub mod program;
-mod random;
+pub mod prove;
 #[cfg(feature = "report")]
 pub mod report;
 #[cfg(feature = "render")]
-pub mod shadow;
+pub mod scene;
 pub mod show;
 #[cfg(feature = "precise")]
 pub mod stabilise;
 pub mod table;
+#[cfg(feature = "render")]
+pub mod technique;
+mod text;
 #[cfg(feature = "gpu")]
 pub mod tune;
 pub mod tuned;

@@ -111,7 +111,7 @@ fn the_reference_is_complete() {
     for name in functions.chain(["f32", "select", "vec2", "dot", "length", "distance", "normalize", "cross"]) {
         assert!(text.contains(&format!("`{name}(")), "`{name}` is not explained");
     }
-    let source = read(&root().join("src/diag.rs"));
+    let source = read(&root().join("src/diag/mod.rs"));
     for code in source.split("Code(\"").skip(1).filter_map(|rest| rest.split('"').next()) {
         assert!(text.contains(&format!("| {code} |")), "{code} is not in the table of codes");
     }

@@ -62,7 +62,7 @@ fn worked_examples_in_the_interpreters() {
 #[cfg(feature = "gpu")]
 #[test]
 fn worked_examples_on_the_gpu() {
-    use umbrage::emit::harness::Entry;
+    use umbrage::emit::kernel::columns::Entry;
     use umbrage::gpu::{AdapterChoice, Gpu, Kernel, Language};
     let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
         assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
@@ -88,7 +88,8 @@ fn worked_examples_on_the_gpu() {
 #[test]
 fn light_on_the_gpu_is_that_of_the_interpreter() {
     use umbrage::gpu::{AdapterChoice, Gpu};
-    use umbrage::light::{Scene, Settings, Tables, gpu::Lamp, picture};
+    use umbrage::technique::integrals::gpu::Lamp;
+    use umbrage::technique::integrals::{Scene, Settings, Tables, picture};
     let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
         assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
         return;

@@ -6,7 +6,9 @@
 
 use std::process::Command;
 
-use umbrage::emit::{self, GlslVersion, harness};
+use umbrage::emit;
+use umbrage::emit::GlslVersion;
+use umbrage::emit::kernel::columns;
 use umbrage::plan::{Plan, Shape};
 use umbrage::program::Program;
 
@@ -28,7 +30,7 @@ fn glslang_accepts_every_version() {
             for (version, stage) in
                 [(GlslVersion::V450, "comp"), (GlslVersion::V330, "frag"), (GlslVersion::Es300, "frag")]
             {
-                let source = harness::glsl_library(&proved, &emit::glsl(&proved, version), version);
+                let source = columns::glsl_library(&proved, &emit::glsl(&proved, version), version);
                 let file = folder.path().join(format!("{}.{shape}.{stage}", program.name));
                 std::fs::write(&file, source).expect("written");
                 let output = Command::new("glslangValidator").arg(&file).output().expect("it runs");

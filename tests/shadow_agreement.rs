@@ -5,10 +5,10 @@
 use umbrage::gpu::{AdapterChoice, Gpu};
 use umbrage::plan::{Plan, Shape};
 use umbrage::program::Program;
-use umbrage::shadow::gpu::{GpuFrame, Output, Raster, Shader, Skeleton};
-use umbrage::shadow::passes::{Bias, Stage};
-use umbrage::shadow::scene::Scene;
-use umbrage::shadow::{
+use umbrage::scene::Scene;
+use umbrage::technique::revectorise::gpu::{GpuFrame, Output, Raster, Shader, Skeleton};
+use umbrage::technique::revectorise::stage::{Bias, Stage};
+use umbrage::technique::revectorise::{
     DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Technique, Visibility, cpu, max_slope,
 };
 

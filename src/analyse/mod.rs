@@ -5,65 +5,49 @@
 //! a declaration that nothing uses, cases that contradict each other. Each
 //! analysis is a file of its own.
 
-mod claims;
-mod continuity;
-mod coverage;
-mod errata;
-mod examples;
-mod levels;
-mod lines;
-mod mutate;
-mod nearby;
-mod numbers;
-mod orbit;
-mod overlap;
-mod point;
-mod real;
+pub(crate) mod findings;
+mod lints;
 mod sets;
 #[cfg(feature = "precise")]
 mod singular;
-mod space;
-mod study;
-mod style;
-mod symmetry;
-mod unused;
+#[cfg(feature = "trial")]
+pub mod trial;
+pub(crate) mod values;
 mod violations;
 mod words;
 
 use crate::diag::{Diagnostic, Severity, codes};
 use crate::program::Program;
-use study::Study;
+use sets::study::Study;
 
-pub use claims::allowance;
-pub use coverage::{Coverage, Dead, coverage};
-pub use errata::{errata, seeded};
-pub use examples::agrees;
-pub use levels::{FINDINGS, Findings, Level, Levels};
-pub use mutate::{Mistake, Tally, survey};
-pub use numbers::{Range, ranges};
-pub use overlap::{Overlap, overlaps};
+pub use findings::accuracy::allowance;
+pub use findings::coverage::{Coverage, Dead, coverage};
+pub use findings::examples::agrees;
+pub use findings::numbers::{Range, ranges};
+pub use findings::overlap::{Overlap, overlaps};
+pub use lints::{FINDINGS, Findings, Level, Levels};
 #[cfg(feature = "precise")]
 pub use singular::{Singularity, domain_points, singularities};
 pub use violations::{Violation, admissible, violations, violations_under};
 
 /// Analyses that look at a program as it is written.
 const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[
-    examples::findings,
-    claims::findings,
-    unused::findings,
+    findings::examples::findings,
+    findings::accuracy::findings,
+    findings::unused::findings,
     #[cfg(feature = "precise")]
     singular::findings,
 ];
 
 /// Analyses that look at all inputs at once.
 const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] = &[
-    overlap::findings,
-    coverage::findings,
-    lines::findings,
-    symmetry::findings,
-    continuity::findings,
-    numbers::findings,
-    style::findings,
+    findings::overlap::findings,
+    findings::coverage::findings,
+    findings::lines::findings,
+    findings::symmetry::findings,
+    findings::continuity::findings,
+    findings::numbers::findings,
+    findings::style::findings,
 ];
 
 /// Everything that is questionable or worth knowing about a program, without
@@ -89,13 +73,13 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 /// ```
 pub fn report(program: &Program, levels: &Levels) -> Findings {
     let mut found: Vec<Diagnostic> = PLAIN.iter().flat_map(|analysis| analysis(program)).collect();
-    // A function has no cases that could contradict each other, and `claims` and `singular` look at its numbers.
+    // A function has no cases that could contradict each other, and `accuracy` and `singular` look at its numbers.
     if program.function.is_none() {
         found.extend(symbolic(program));
     }
     drop_twice_said(&mut found);
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-    levels::sort(program, found, levels)
+    lints::sort(program, found, levels)
 }
 
 fn symbolic(program: &Program) -> Vec<Diagnostic> {

@@ -4,7 +4,7 @@
 use num_traits::{Signed, Zero};
 
 use super::sets::Set;
-use super::space::{Space, Witness};
+use super::sets::space::{Space, Witness};
 use crate::program::normal::{Affine, Rational, Term};
 use crate::program::print::Printer;
 use crate::program::{Domain, ExprId, InputSet, LevelSet, Node, Program, TernaryOp, Value};

@@ -3,8 +3,8 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::messages::Report;
 use super::output::Sink;
-use super::report::Report;
 use super::{Outcome, Result, profiled};
 use crate::atlas::{self, Atlas};
 use crate::diag::{Diagnostic, Failure, codes};

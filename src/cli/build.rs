@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
+use super::messages::{Format, Report, plural};
 use super::plan::{self, PlanArgument};
-use super::report::{Format, Report, plural};
 use super::watch::Watched;
 use super::{Error, Outcome, Result, levels, parse_target};
 use crate::build::{self, Built, Options, Request};

@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::report::{self, Format, Report, plural};
+use super::messages;
+use super::messages::{Format, Report, plural};
 use super::{Outcome, Result, levels};
 use crate::analyse::{self, Levels};
 use crate::build;
@@ -76,7 +77,7 @@ fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, wa
     let failure = Failure { source: program.source.clone(), diagnostics: found.open };
     let outcome = show(out, report, &failure)?;
     if report.format == Format::Json {
-        out.write_all(report::acknowledged_lines(&failure.source, &found.acknowledged).as_bytes())?;
+        out.write_all(messages::acknowledged_lines(&failure.source, &found.acknowledged).as_bytes())?;
     }
     if report.format == Format::Human {
         let verdict = match outcome {
@@ -111,7 +112,7 @@ fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, wa
 /// Shows diagnostics. As JSON they are what the command is asked for, so they go to standard output.
 fn show(out: &mut impl Write, report: &Report, failure: &Failure) -> Result<Outcome> {
     match report.format {
-        Format::Json => out.write_all(report::lines(&failure.source, &failure.diagnostics).as_bytes())?,
+        Format::Json => out.write_all(messages::lines(&failure.source, &failure.diagnostics).as_bytes())?,
         Format::Human => report.failure(failure),
     }
     Ok(match failure.diagnostics.iter().map(|d| d.severity).max() {

@@ -7,7 +7,7 @@ use clap::CommandFactory;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use super::report::{Format, Report};
+use super::messages::{Format, Report};
 use super::{Arguments, Outcome, Result};
 use crate::build::{self, Artifact};
 

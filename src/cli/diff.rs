@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
+use super::messages::{Format, Report};
 use super::plan::{self, PlanArgument};
-use super::report::{Format, Report};
-use super::{Outcome, Result, columns};
+use super::{Outcome, Result, input};
 use crate::build;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff::{self, Options};
@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let frames = match (arguments.frames.as_slice(), programs.as_slice()) {
         ([], _) => None,
         (files, [program]) => {
-            let read = files.iter().map(|file| columns::read_all(program, file));
+            let read = files.iter().map(|file| input::read_all(program, file));
             Some(read.collect::<std::result::Result<Vec<_>, Failure>>()?)
         }
         (_, several) => {

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget};
 
 use super::output::Sink;
 use super::{Outcome, Result};
-use crate::analyse;
+use crate::analyse::trial;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::program::Program;
 use crate::table::Table;
@@ -46,7 +46,7 @@ pub(super) fn run(arguments: &ErrataArguments) -> Result<Outcome> {
          What the analyses of `umbrage check` find in published tables by themselves, and what they leave.\n\n",
     );
     for (printed, mended, _) in &pairs {
-        text.push_str(&analyse::errata(printed, mended));
+        text.push_str(&trial::errata(printed, mended));
     }
     if arguments.mistakes > 0 {
         text.push_str(&format!(
@@ -63,9 +63,9 @@ pub(super) fn run(arguments: &ErrataArguments) -> Result<Outcome> {
             if !io::stderr().is_terminal() {
                 bar.set_draw_target(ProgressDrawTarget::hidden());
             }
-            let tallies = analyse::survey(table, arguments.mistakes, arguments.seed, |n| bar.set_position(n as u64))?;
+            let tallies = trial::survey(table, arguments.mistakes, arguments.seed, |n| bar.set_position(n as u64))?;
             bar.finish_and_clear();
-            text.push_str(&analyse::seeded(&mended.name, &tallies));
+            text.push_str(&trial::seeded(&mended.name, &tallies));
         }
     }
     let written = sink.write_all(text.trim_end().as_bytes()).and_then(|()| sink.write_all(b"\n"));

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 use super::answers::{Answers, Writer};
-use super::columns::{self, Columns, Points, Problems};
+use super::input;
+use super::input::{Columns, Points, Problems};
+use super::messages::Report;
 use super::output::Sink;
-use super::report::Report;
 use super::{Outcome, PrecisionArgument, Result, parse_shape};
 use crate::diag::{Diagnostic, Failure, Span, codes};
 #[cfg(feature = "gpu")]
-use crate::emit::harness::Entry;
+use crate::emit::kernel::columns::Entry;
 use crate::eval::{self, Batch, Interpreter, NeedsFetch};
 use crate::explain::explain;
 #[cfg(feature = "gpu")]
@@ -102,11 +103,11 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         report.failure(&Failure::bare("", note));
     }
     let precision = arguments.precision.into();
-    let rows = columns::read(&program, &arguments.input)?;
+    let rows = input::read(&program, &arguments.input)?;
     let source = &rows.source;
     let fail = |diagnostics| Failure { source: source.clone(), diagnostics };
     let mut columns = Columns::open(&program, &rows).map_err(fail)?;
-    let json = columns::has_extension(&arguments.output, "json");
+    let json = input::has_extension(&arguments.output, "json");
     let sink = Sink::create(&arguments.output)?;
     let mut writer = Writer::start(&program, precision, json, sink)?;
     let mut points = Points::new(&program);

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value as Json, json};
 
-use super::columns;
-use super::report::{Format, Report};
+use super::input;
+use super::messages::{Format, Report};
 use super::{Outcome, PrecisionArgument, Result};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::explain::{self, Explanation, Needed, Tested, code, text};
@@ -87,13 +87,13 @@ fn point(program: &Program, source: &Arc<Source>) -> std::result::Result<(Vec<Op
         }
         let Some((name, word)) = part.split_once('=') else {
             errors.push(
-                Diagnostic::error(codes::BAD_VALUE, format!("`{}` gives no value", columns::shorten(part.trim())))
+                Diagnostic::error(codes::BAD_VALUE, format!("`{}` gives no value", input::shorten(part.trim())))
                     .at(span, "expected INPUT=VALUE")
                     .help("write, for instance, --at H=left,dV=0.5"),
             );
             continue;
         };
-        let input = match columns::column(program, name.trim(), Span::new(span.start, span.start + name.len())) {
+        let input = match input::column(program, name.trim(), Span::new(span.start, span.start + name.len())) {
             Ok(input) => input,
             Err(error) => {
                 errors.push(error);
@@ -107,7 +107,7 @@ fn point(program: &Program, source: &Arc<Source>) -> std::result::Result<(Vec<Op
             );
             continue;
         }
-        match columns::cell(&program.inputs[input.index()], word.trim()) {
+        match input::cell(&program.inputs[input.index()], word.trim()) {
             Ok(value) => point[input.index()] = value,
             Err(message) => errors.push(
                 Diagnostic::error(codes::BAD_VALUE, message)

@@ -4,8 +4,8 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::messages::{Format, Report};
 use super::output::Sink;
-use super::report::{Format, Report};
 use super::{Outcome, Result};
 use crate::build;
 use crate::diag::{Diagnostic, Failure, Source, codes};

@@ -5,44 +5,30 @@
 //! output, messages to standard error.
 
 mod answers;
-#[cfg(feature = "report")]
 mod atlas;
-#[cfg(all(feature = "gpu", feature = "render"))]
-mod bench;
 mod build;
 mod check;
-mod columns;
 mod completions;
-mod csv_input;
 #[cfg(feature = "gpu")]
 mod diff;
+#[cfg(feature = "trial")]
 mod errata;
 mod eval;
 mod explain;
 mod fmt;
-#[cfg(feature = "render")]
-mod frame;
-mod json_input;
+mod input;
 mod levels;
-#[cfg(all(feature = "render", feature = "report"))]
-mod light;
+mod messages;
 mod new;
 mod output;
 mod plan;
 mod profile;
 mod profiled;
-#[cfg(feature = "render")]
 mod progress;
-#[cfg(all(feature = "render", feature = "report"))]
-mod quality;
-#[cfg(all(feature = "render", feature = "report"))]
 mod render;
 mod report;
-#[cfg(feature = "render")]
 mod scenes;
 mod stabilise;
-#[cfg(feature = "report")]
-mod table_report;
 #[cfg(test)]
 mod tests;
 #[cfg(feature = "gpu")]
@@ -59,7 +45,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::Target;
 use crate::plan::Shape;
 use crate::show::Precision;
-use report::{Color, Format, Report};
+use messages::{Color, Format, Report};
 
 #[derive(Parser)]
 #[command(name = "umbrage", version, about = "Compiles case tables into shaders that are proved equal to the table")]
@@ -80,11 +66,10 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     /// Draw every case of a table
-    #[cfg(feature = "report")]
     Atlas(atlas::Arguments),
     /// Measure what each technique costs on this device
-    #[cfg(all(feature = "gpu", feature = "render"))]
-    Bench(bench::Arguments),
+    #[cfg(feature = "gpu")]
+    Bench(render::bench::Arguments),
     /// Check tables and run their examples
     Check(check::Arguments),
     /// Check, prove, emit and validate tables
@@ -93,6 +78,7 @@ enum Command {
     #[cfg(feature = "gpu")]
     Diff(diff::Arguments),
     /// Report which misprints of a table the analyses find, and how well they find mistakes in general
+    #[cfg(feature = "trial")]
     Errata(errata::ErrataArguments),
     /// Evaluate a table over rows of inputs
     Eval(eval::Arguments),
@@ -103,20 +89,15 @@ enum Command {
     /// Count how often each state of a table occurs; merge, show and compare such counts
     Profile(profile::Arguments),
     /// Put everything about a table on one page
-    #[cfg(feature = "report")]
-    Report(table_report::Arguments),
+    Report(report::Arguments),
     /// Measure how far each technique is from the true shadow
-    #[cfg(all(feature = "render", feature = "report"))]
-    Quality(quality::Arguments),
+    Quality(render::quality::Arguments),
     /// Render a scene with its shadows
-    #[cfg(all(feature = "render", feature = "report"))]
     Render(render::Arguments),
     /// List the scenes that come with Umbrage
-    #[cfg(feature = "render")]
     Scenes,
     /// Light a picture by integral expansions
-    #[cfg(all(feature = "render", feature = "report"))]
-    Light(light::Arguments),
+    Light(render::light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -195,29 +176,24 @@ pub fn main() -> ExitCode {
     };
     let report = Report::new(arguments.color, arguments.message_format);
     let result = match arguments.command {
-        #[cfg(feature = "report")]
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
-        #[cfg(all(feature = "gpu", feature = "render"))]
-        Command::Bench(arguments) => bench::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Bench(arguments) => render::bench::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Diff(arguments) => diff::run(&arguments, &report),
         Command::Eval(arguments) => eval::run(&arguments, &report),
+        #[cfg(feature = "trial")]
         Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
-        #[cfg(feature = "report")]
-        Command::Report(arguments) => table_report::run(&arguments, &report),
-        #[cfg(all(feature = "render", feature = "report"))]
-        Command::Quality(arguments) => quality::run(&arguments, &report),
-        #[cfg(all(feature = "render", feature = "report"))]
+        Command::Report(arguments) => report::run(&arguments, &report),
+        Command::Quality(arguments) => render::quality::run(&arguments, &report),
         Command::Render(arguments) => render::run(&arguments, &report),
-        #[cfg(feature = "render")]
         Command::Scenes => scenes::run(&report),
-        #[cfg(all(feature = "render", feature = "report"))]
-        Command::Light(arguments) => light::run(&arguments, &report),
+        Command::Light(arguments) => render::light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),

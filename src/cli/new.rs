@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use super::report::{Format, Report};
+use super::messages::{Format, Report};
 use super::{Outcome, Result};
 use crate::build::{self, Artifact};
 use crate::diag::{Diagnostic, Failure, Span, codes};

@@ -2,13 +2,11 @@
 
 use std::path::Path;
 
-use super::report::Report;
+use super::messages::Report;
 use crate::diag::Failure;
-#[cfg(feature = "report")]
 use crate::diag::{Diagnostic, codes};
 use crate::profile::{self, Fitted};
 use crate::program::Program;
-#[cfg(feature = "report")]
 use crate::tuned::{Choice, Tuned};
 
 /// Reads the profile of a table; says what of it was lost, if the table has changed.
@@ -22,7 +20,6 @@ pub(super) fn read(program: &Program, path: Option<&Path>, report: &Report) -> R
 }
 
 /// Reads what was tuned on a device.
-#[cfg(feature = "report")]
 pub(super) fn tuned(path: &Path) -> Result<Tuned, Failure> {
     Tuned::read(path)?.ok_or_else(|| {
         let error = Diagnostic::error(codes::UNREADABLE, "cannot be read: no such file or directory");
@@ -31,7 +28,6 @@ pub(super) fn tuned(path: &Path) -> Result<Tuned, Failure> {
 }
 
 /// The device, and what was chosen on it for this very text of a table.
-#[cfg(feature = "report")]
 pub(super) fn choice<'t>(program: &Program, tuned: &'t Tuned) -> Result<(&'t str, &'t Choice), Failure> {
     let found = tuned.choice(program).map(|choice| (tuned.device.as_str(), choice));
     found.ok_or_else(|| {

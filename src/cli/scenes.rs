@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use serde_json::json;
 
-use super::report::{Format, Report};
+use super::messages::{Format, Report};
 use super::{Outcome, Result};
-use crate::shadow::scene::Scene;
+use crate::scene::Scene;
 
 /// Lists the names, one a line; as JSON with what each scene shows.
 pub(super) fn run(report: &Report) -> Result<Outcome> {

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
+use super::messages::{Format, Report};
 use super::output::Sink;
-use super::report::{Format, Report};
 use super::{Outcome, Result};
 use crate::stabilise::{self, Certificate, Measured, Stabilised};
 use crate::table::Table;

@@ -1,6 +1,5 @@
 //! `umbrage tune`: measures every plan of a table here, and keeps the best.
 
-#[cfg(feature = "render")]
 mod whole;
 
 use std::io::{self, IsTerminal, Write};
@@ -10,11 +9,10 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
-#[cfg(feature = "render")]
-use super::frame::{parse_map, parse_size};
+use super::messages::{Format, Report};
 use super::output::Sink;
-use super::report::{Format, Report};
-use super::{Outcome, Result, columns, parse_shape, profile};
+use super::render::frame::{parse_map, parse_size};
+use super::{Outcome, Result, input, parse_shape, profile};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::gpu::timing::{Clock, Protocol};
 use crate::gpu::{AdapterChoice, Gpu};
@@ -65,11 +63,9 @@ pub(super) struct Arguments {
     #[arg(long)]
     wall_clock: bool,
     /// Measure the plans, too, in the whole shadow pass that the table is for, on frames of scenes
-    #[cfg(feature = "render")]
     #[arg(long)]
     whole: bool,
     /// Scenes for --whole: names of built-in ones, or files
-    #[cfg(feature = "render")]
     #[arg(
         long,
         value_name = "SCENE",
@@ -79,11 +75,9 @@ pub(super) struct Arguments {
     )]
     scene: Vec<String>,
     /// Size of the picture for --whole [default: 1920x1080; on a software adapter 480x270]
-    #[cfg(feature = "render")]
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size, requires = "whole")]
     size: Option<(u32, u32)>,
     /// Texels per side of the shadow map for --whole
-    #[cfg(feature = "render")]
     #[arg(long, value_name = "TEXELS", default_value = "1024", value_parser = parse_map, requires = "whole")]
     shadow_map: u32,
     /// Directory of the choices, one file per device
@@ -111,7 +105,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let weights = fitted.weights(&program, &name)?;
     let mut frames = None;
     for file in &arguments.frames {
-        let read = columns::read_all(&program, file)?;
+        let read = input::read_all(&program, file)?;
         match &mut frames {
             None => frames = Some(read),
             Some(all) => all.append(&read),
@@ -127,7 +121,6 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         protocol: Protocol { rounds: arguments.rounds, ..defaults.protocol },
         wall_clock: arguments.wall_clock,
     };
-    #[cfg(feature = "render")]
     if arguments.whole {
         // Said before anything takes time.
         whole::check(arguments, &program)?;
@@ -139,7 +132,6 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let result = tune::tune(&program, fitted, &weights, frames.as_ref(), &gpu, &options, |doing| {
         bar.set_message(doing.to_owned());
     });
-    #[cfg(feature = "render")]
     let result = result.and_then(|mut tuning| {
         if arguments.whole {
             bar.set_message("measuring whole shaders");
@@ -186,7 +178,6 @@ fn progress() -> ProgressBar {
     bar
 }
 
-#[cfg(feature = "report")]
 fn page(
     program: &Program,
     tuning: &Tuning<'_>,
@@ -235,7 +226,6 @@ fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
         writeln!(out, "  rank correlation of times with estimates {group}, with the size of plans {everything}")?;
     }
     estimates(&mut out, tuning)?;
-    #[cfg(feature = "render")]
     whole::human(&mut out, tuning)?;
     for (candidate, reason) in &tuning.skipped {
         writeln!(out, "left out: {}: {reason}", candidate.name())?;
@@ -323,7 +313,6 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
             (kind.name().to_owned(), json!({"group": group, "everything": everything}))
         })
         .collect();
-    #[cfg(feature = "render")]
     let whole = whole::object(tuning);
     #[cfg(not(feature = "render"))]
     let whole = json!([]);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value as Json, json};
 
-use super::report::{Format, Report};
+use super::messages::{Format, Report};
 use super::{Outcome, Result, profiled};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::explain::reach::Arrival;

@@ -14,19 +14,18 @@
 //! legal, and so is one that the table has at inputs that far off. One that
 //! makes use of assumptions is compared where these hold.
 
-mod points;
-
 use std::fmt::Write as _;
 
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::harness::Entry;
+use crate::emit::kernel::columns::Entry;
 use crate::eval::{Batch, Columns, Interpreter, IntervalInterpreter, Results};
 use crate::gpu::{Gpu, Kernel, Language, Outputs};
-use crate::plan::{Plan, PlanOptions, Proved, Shape, Weights, is_unsuitable, reachable};
+use crate::plan::{Plan, PlanOptions, Proved, Shape, Weights, is_unsuitable};
+use crate::program::reachable;
 use crate::program::{Domain, Program};
 use crate::show::{Precision, sentence};
 
-pub use points::{Effort, Point, Points};
+pub use crate::points::comparison::{Effort, Point, Points};
 
 /// Points that are evaluated together.
 const BATCH: usize = 100_000;

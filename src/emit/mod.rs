@@ -5,35 +5,25 @@
 //! language decides how. What comes out depends on the table and the options
 //! alone, so it is the same bytes on every machine.
 
-mod body;
-mod dialect;
-mod glsl;
-pub mod harness;
+pub(crate) mod function;
 mod host;
-mod host_wgpu;
-mod lookup;
+mod imports;
+pub mod kernel;
+mod language;
 mod module;
-mod modules;
 mod names;
-mod outline;
-mod rust;
-mod special;
-mod terms;
 mod text;
-pub mod timed;
 mod validate;
-mod values;
-mod wgsl;
 
 use host::Host;
-use wgsl::Wgsl;
+use language::wgsl::Wgsl;
 
 use crate::diag::Failure;
 use crate::plan::Proved;
 use crate::program::Output;
 
-pub use glsl::GlslVersion;
 pub use host::Beside;
+pub use language::glsl::GlslVersion;
 pub use module::lookup_words;
 pub use validate::{Translated, Validated, glsl_module, translate, wgsl_module};
 
@@ -183,15 +173,18 @@ pub fn emit_all(plans: &[Proved<'_>], target: Target, beside: &[Beside]) -> Resu
         Target::Wgsl | Target::Wesl | Target::NagaOil => {
             let dialect = if target == Target::Wgsl { Wgsl::Plain } else { Wgsl::Module };
             let source = join(&|plan| module::write(plan, &dialect));
-            wgsl_module(program, &plans.iter().fold(source.clone(), |text, plan| harness::wgsl_library(plan, &text)))?;
-            modules::head(plans, target) + &source
+            wgsl_module(
+                program,
+                &plans.iter().fold(source.clone(), |text, plan| kernel::columns::wgsl_library(plan, &text)),
+            )?;
+            imports::head(plans, target) + &source
         }
         Target::Glsl(version) => {
             let source = join(&|plan| glsl(plan, version));
             // naga's GLSL front end gives an array another type inside of a structure than outside.
             let readable = !plans.iter().any(|plan| matches!(plan.plan().program.output, Output::List { .. }));
             if version == GlslVersion::V450 && readable {
-                glsl_module(program, &harness::glsl_library(first, &source, version))?;
+                glsl_module(program, &kernel::columns::glsl_library(first, &source, version))?;
             }
             source
         }
@@ -200,7 +193,7 @@ pub fn emit_all(plans: &[Proved<'_>], target: Target, beside: &[Beside]) -> Resu
             host::modules(plans, host, beside)
         }
         Target::SpirV | Target::Hlsl | Target::Msl => {
-            let source = join(&|plan| harness::wgsl_columns(plan, harness::Entry::Key));
+            let source = join(&|plan| kernel::columns::wgsl_columns(plan, kernel::columns::Entry::Key));
             let module = wgsl_module(program, &source)?;
             let translated = match target {
                 Target::SpirV => Translated::SpirV,
@@ -225,7 +218,7 @@ pub fn wgsl(proved: &Proved<'_>) -> String {
 
 /// The GLSL library of a plan: no `#version` line and no `main`.
 pub fn glsl(proved: &Proved<'_>, version: GlslVersion) -> String {
-    module::write(proved, &glsl::Glsl { version })
+    module::write(proved, &language::glsl::Glsl { version })
 }
 
 /// The Rust module of a plan.

@@ -7,11 +7,11 @@
 
 use std::collections::HashMap;
 
-use super::body::Body;
-use super::dialect::{Dialect, Prefix, Type};
-use super::lookup;
+use super::function::body::Body;
+use super::function::lookup;
+use super::function::outline::MAX_LEVELS;
+use super::language::{Dialect, Prefix, Type};
 use super::names::{Names, fetches, input_type};
-use super::outline::MAX_LEVELS;
 use super::text::Text;
 use crate::diag::fnv1a;
 use crate::plan::{KeyLayout, Plan, Proved};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::dialect::{Dialect, Prefix, Type};
+use super::language::{Dialect, Prefix, Type};
 use crate::program::{Domain, InputId, LevelKind, Levels, Program};
 
 /// Names of generated things that depend on the whole table.

@@ -420,9 +420,9 @@ impl Split {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Outcome;
     use super::*;
     use crate::diag::Source;
-    use crate::eval::Outcome;
     use crate::program::Value;
     use crate::table::Table;
 

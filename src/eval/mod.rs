@@ -15,9 +15,9 @@ mod interval;
 #[cfg(feature = "precise")]
 mod precise;
 mod residual;
-mod sample;
 mod scalar;
 
+pub use crate::points::sample::Samples;
 pub use admissible::{Admissible, IntervalInterpreter, Possible};
 pub use batch::{Batch, Missing};
 pub use columns::{ABSENT, Column, ColumnError, Columns, Path, Results};
@@ -26,5 +26,4 @@ pub use interval::Interval;
 pub(crate) use precise::NOTHING;
 #[cfg(feature = "precise")]
 pub use precise::{Precise, Unknown};
-pub use sample::Samples;
 pub use scalar::{Interpreter, NeedsFetch, Outcome};

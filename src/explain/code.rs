@@ -121,7 +121,7 @@ mod tests {
     /// Every code is explained, in order, in the words of the reference.
     #[test]
     fn every_code_is_explained() {
-        let source = include_str!("../diag.rs");
+        let source = include_str!("../diag/mod.rs");
         let declared: Vec<&str> = source.split("Code(\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
         let explained: Vec<&str> = entries().map(|entry| entry.code).collect();
         let mut sorted = declared.clone();

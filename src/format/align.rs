@@ -5,7 +5,7 @@
 //! line each. Everywhere else what the author has aligned stays aligned.
 
 use super::rows::{Line, OUTSIDE, Pair, Piece, Rows, is_section};
-use crate::table::scan::Kind;
+use crate::text::tokens::Kind;
 
 /// Fields of a table whose entries are aligned.
 const ALIGNED: [&str; 7] = ["levels", "inputs", "names", "symmetries", "assume", "continuity", "constants"];

@@ -14,7 +14,8 @@ use std::sync::Arc;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::Table;
-use crate::table::scan::{self, Kind, Token};
+use crate::text::tokens;
+use crate::text::tokens::{Kind, Token};
 
 /// A table as it should be laid out.
 ///
@@ -31,14 +32,14 @@ use crate::table::scan::{self, Kind, Token};
 /// When the source is no table.
 pub fn format(source: &Arc<Source>) -> Result<String, Failure> {
     Table::well_formed(source)?;
-    let tokens = scan::tokens(&source.text);
+    let tokens = tokens::tokens(&source.text);
     let before = essence(&tokens);
     let mut rows = rows::rows(tokens);
     align::align(&mut rows);
     let text = print::print(&rows);
     let formatted = Source::new(source.name.as_str(), text.as_str());
     // The table is a function of these tokens, so where they are equal the tables are.
-    if essence(&scan::tokens(&text)) != before || Table::well_formed(&formatted).is_err() {
+    if essence(&tokens::tokens(&text)) != before || Table::well_formed(&formatted).is_err() {
         let error = Diagnostic::error(codes::FORMAT, "formatting would change what this table means; it is left alone");
         return Err(Failure::bare(source.name.as_str(), error.help("this is a mistake in Umbrage: please report it")));
     }
@@ -55,7 +56,7 @@ fn essence<'a>(tokens: &[Token<'a>]) -> (Vec<String>, Vec<&'a str>) {
     };
     let plain = |token: &Token<'_>| match token.kind {
         Kind::Text => {
-            let (open, inner, close) = scan::quoted(token.text);
+            let (open, inner, close) = tokens::quoted(token.text);
             let words = crate::table::lex::tokens(inner, 0);
             let words = words.map(|words| words.iter().map(|(at, _)| &inner[at.start..at.end]).collect::<Vec<_>>());
             format!("{open}{}{close}", words.map_or_else(|_| inner.to_owned(), |words| words.join("\n")))

@@ -5,7 +5,7 @@
 //! the author chose four blanks here, too.
 
 use super::rows::{Line, OUTSIDE, Piece, Rows, Written};
-use crate::table::scan::Kind;
+use crate::text::tokens::Kind;
 
 /// One level of a block.
 const STEP: usize = 4;

@@ -7,7 +7,7 @@
 //! of its own.
 
 use super::expression;
-use crate::table::scan::{Kind, Token, quoted};
+use crate::text::tokens::{Kind, Token, quoted};
 
 /// A token in its place.
 #[derive(Debug)]

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::build::find_tables;
-use crate::random::Random;
+use crate::points::random::Random;
 
 fn formatted(text: &str) -> String {
     format(&Source::new("t.ron", text)).unwrap_or_else(|failure| panic!("{failure}"))
@@ -117,7 +117,7 @@ fn formatting_is_a_projection() {
             let scattered = scatter(&text, &mut random);
             let once = formatted(&scattered);
             let comments = |text: &str| {
-                let tokens = scan::tokens(text);
+                let tokens = tokens::tokens(text);
                 tokens.iter().filter(|t| t.is_comment()).map(|t| t.text.to_owned()).collect::<Vec<_>>()
             };
             assert_eq!(comments(&once), comments(&scattered), "{}", path.display());
@@ -133,7 +133,7 @@ fn formatting_is_a_projection() {
 fn scatter(text: &str, random: &mut Random) -> String {
     let mut out = String::new();
     let mut after_line_comment = false;
-    for token in scan::tokens(text) {
+    for token in tokens::tokens(text) {
         let was = if token.breaks > 0 { "\n".repeat(token.breaks) } else { " ".repeat(token.gap) };
         let space = match random.below(12) {
             0 => "\n  ".to_owned(),

@@ -3,12 +3,12 @@
 use std::time::Duration;
 
 use super::Gpu;
-use super::compute::Compute;
 use super::kernel::{bindings, buffers, fetched_words, plain_words};
+use super::pass::Compute;
 use super::timing::Stopwatch;
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::harness::{Entry, Layout, WORKGROUP, reads_lookup};
-use crate::emit::timed::{wgsl_floor, wgsl_timed};
+use crate::emit::kernel::columns::{Entry, Layout, WORKGROUP, reads_lookup};
+use crate::emit::kernel::timed::{wgsl_floor, wgsl_timed};
 use crate::emit::{lookup_words, wgsl_module};
 use crate::eval::Columns;
 use crate::plan::{KeyLayout, Proved};

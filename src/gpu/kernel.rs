@@ -3,9 +3,11 @@
 use std::ops::Range;
 
 use super::Gpu;
-use super::compute::{Binding, Compute};
+use super::pass::{Binding, Compute};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::harness::{COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, reads_lookup, wgsl_columns};
+use crate::emit::kernel::columns::{
+    COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, reads_lookup, wgsl_columns,
+};
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
 use crate::eval::Columns;
 use crate::plan::{KeyLayout, Proved};
@@ -68,7 +70,7 @@ impl<'a, 'p> Kernel<'a, 'p> {
     /// When the source is refused; that would be a bug of the emitter or the driver.
     ///
     /// ```no_run
-    /// use umbrage::emit::harness::Entry;
+    /// use umbrage::emit::kernel::columns::Entry;
     /// use umbrage::eval::Columns;
     /// use umbrage::gpu::{AdapterChoice, Gpu, Kernel, Language};
     /// use umbrage::plan::{Plan, Shape};

@@ -4,9 +4,9 @@
 //! driver to install when there is no adapter, what was lost when a device is.
 
 pub mod bench;
-pub(crate) mod compute;
 mod device;
 mod kernel;
+pub(crate) mod pass;
 pub mod timing;
 
 pub use device::{AdapterChoice, Gpu};

@@ -391,11 +391,11 @@ mod tests {
         if let Some(folder) = std::env::var_os("UMBRAGE_PICTURES") {
             let folder = std::path::PathBuf::from(folder);
             for (name, svg) in [("lines", &drawn), ("bars", &barred)] {
-                let png = crate::picture::raster(svg, 2.0).and_then(|picture| crate::picture::png(&picture));
+                let png = super::super::raster(svg, 2.0).and_then(|picture| super::super::png(&picture));
                 std::fs::write(folder.join(name).with_extension("png"), png.expect("drawn")).expect("written");
             }
         }
-        assert!(crate::picture::raster(&drawn, 1.0).is_ok() && crate::picture::raster(&barred, 1.0).is_ok());
+        assert!(super::super::raster(&drawn, 1.0).is_ok() && super::super::raster(&barred, 1.0).is_ok());
         let none = Frame { size: (0, 0), ..frame };
         assert!(bars(&none, &categories, &[]).starts_with("<svg"));
     }

@@ -3,26 +3,16 @@
 //!
 //! A [`Plan`] is a directed acyclic graph of [`Step`]s. Fetches are steps of
 //! their own, so that "at most once, and only where needed" can be read off
-//! the graph and is part of what [`prove`](prove::prove) proves.
+//! the graph and is part of what [`prove`](crate::prove::exact::prove) proves.
 
-mod build;
-mod chain;
-mod coefficients;
-mod gather;
+mod builder;
 mod key;
 mod knowledge;
-mod orbit;
 mod order;
-pub mod prove;
-mod prove_real;
-mod reachable;
-mod rounding;
-mod route;
 mod setting;
+pub(crate) mod shapes;
 #[cfg(test)]
 mod tests;
-mod tree;
-mod turn;
 mod weights;
 
 use std::fmt;
@@ -30,12 +20,12 @@ use std::fmt;
 use crate::diag::{Diagnostic, Failure, codes, fnv1a};
 use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
-pub use coefficients::{Coefficients, Fit, Form, Piece};
+pub use crate::program::reachable;
+pub(crate) use crate::program::turn::renamed;
+pub use crate::prove::exact::{Counterexample, Proof, Refusal};
 pub use key::KeyLayout;
 pub use order::Certificate;
-pub use prove::{Counterexample, Proof, Refusal};
-pub use reachable::reachable;
-pub(crate) use turn::renamed;
+pub use shapes::coefficients::{Coefficients, Fit, Form, Piece};
 pub use weights::Weights;
 
 use setting::Setting;
@@ -269,17 +259,17 @@ impl<'p> Plan<'p> {
         let shape = options.shape;
         let made = Setting::new(program, &options).and_then(|setting| {
             let plan = match shape {
-                Shape::Ordered => chain::ordered(&setting),
-                Shape::Nested => chain::nested(&setting),
-                Shape::Gathered => gather::gathered(&setting),
-                Shape::Tree => tree::tree(&setting),
-                Shape::Ladder => build::ladder(program),
+                Shape::Ordered => shapes::chain::ordered(&setting),
+                Shape::Nested => shapes::chain::nested(&setting),
+                Shape::Gathered => shapes::gather::gathered(&setting),
+                Shape::Tree => shapes::tree::tree(&setting),
+                Shape::Ladder => builder::ladder(program),
                 _ if program.function.is_some() && program.states.count() == 1 => {
                     Err("it has no discrete inputs to choose by; use `ladder`".to_owned())
                 }
-                Shape::Switch(_) => build::switch(&setting, shape),
-                Shape::Coefficients => coefficients::plan(&setting),
-                Shape::Orbit => orbit::plan(&setting),
+                Shape::Switch(_) => builder::switch(&setting, shape),
+                Shape::Coefficients => shapes::coefficients::plan(&setting),
+                Shape::Orbit => shapes::orbit::plan(&setting),
             };
             let weighed = setting.weights.map(|weights| weights.origin().to_owned());
             let inputs = inputs(program, &options);
@@ -316,7 +306,7 @@ impl<'p> Plan<'p> {
     /// With a counterexample if the plan is not equal to its program, and when
     /// it has too many paths.
     pub fn prove(self) -> Result<Proved<'p>, Failure> {
-        match prove::prove(&self) {
+        match crate::prove::exact::prove(&self) {
             Ok(proof) => Ok(Proved { plan: self, proof }),
             Err(refusal) => Err(refusal.into_failure(self.program)),
         }

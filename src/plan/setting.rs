@@ -1,9 +1,9 @@
 //! What a plan is made for: the states that count, and how much each does.
 
-use super::reachable::reachable;
 use super::{PlanOptions, Weights};
 use crate::program::Program;
 use crate::program::claims::Claims;
+use crate::program::reachable;
 use crate::program::symbolic::{Machine, View};
 
 /// The program, its states, and their weights.

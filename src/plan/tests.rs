@@ -1,11 +1,13 @@
 //! Random tables × all plans: what is planned is proved, what is proved gives
 //! what the interpreter gives, and what is changed afterwards is refused.
 
+mod mutations;
+
 use super::*;
 use crate::diag::Source;
 use crate::eval::Interpreter;
+use crate::points::random::Random;
 use crate::program::{Domain, InputSet, LevelTerm, Node, Real, Value};
-use crate::random::Random;
 use crate::table::Table;
 
 fn pick<'a>(random: &mut Random, list: &[&'a str]) -> &'a str {

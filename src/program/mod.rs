@@ -22,8 +22,10 @@ pub(crate) mod normal;
 mod ops;
 mod pool;
 pub mod print;
+mod reachable;
 pub(crate) mod region;
 pub(crate) mod symbolic;
+pub(crate) mod turn;
 
 use std::sync::Arc;
 
@@ -37,6 +39,7 @@ pub use pool::{
     BINARY_FUNCTIONS, BinaryOp, Comparison, Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool,
     TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp,
 };
+pub use reachable::reachable;
 
 /// Number of an input, in the order declared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -325,8 +325,8 @@ fn maximum(left: Lattice, right: Lattice) -> Option<Lattice> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::InputId;
     use super::*;
-    use crate::program::InputId;
 
     struct Forms {
         pool: Pool,

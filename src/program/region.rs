@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 
 use num_traits::{CheckedAdd, CheckedMul, Signed, Zero};
 
-use crate::program::normal::{Affine, Rational, Term, rational};
-use crate::program::{Domain, InputId, Program};
+use super::normal::{Affine, Rational, Term, rational};
+use super::{Domain, InputId, Program};
 
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
 const MAX_CONSTRAINTS: usize = 512;
@@ -183,9 +183,9 @@ impl Constraint {
 
 #[cfg(test)]
 mod tests {
+    use super::super::InputId;
     use super::*;
     use crate::diag::Source;
-    use crate::program::InputId;
     use crate::table::Table;
 
     fn affine(x: i128, y: i128, constant: i128) -> Affine {

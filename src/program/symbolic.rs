@@ -15,10 +15,10 @@ use std::ops::ControlFlow;
 
 use num_traits::Signed;
 
+use super::normal::{Affine, Normaliser};
+use super::print::Printer;
 use super::region::{self, Sign};
-use crate::program::normal::{Affine, Normaliser};
-use crate::program::print::Printer;
-use crate::program::{
+use super::{
     BinaryOp, Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, LevelTerm, Node, Pool, Program, Symmetry,
     TernaryOp, UnaryOp, Value,
 };

@@ -6,8 +6,8 @@
 
 use serde::Deserialize;
 
-use super::raw::{Raw, RawMap, Reader};
 use crate::diag::{Diagnostic, Spanned, codes};
+use crate::text::raw::{Raw, RawMap, Reader};
 
 /// A side of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize)]

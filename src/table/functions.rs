@@ -6,9 +6,9 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::expr::{Expr, ExprKind};
-use super::raw::{Raw, RawMap, Reader, Shape};
 use super::{Assumption, Case, Erratum, Example, Line, Named, Table};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::text::raw::{Raw, RawMap, Reader, Shape};
 
 type Result<T> = std::result::Result<T, Diagnostic>;
 

@@ -13,9 +13,7 @@ mod imports;
 pub(crate) mod lex;
 pub(crate) mod names;
 pub(crate) mod parse;
-pub(crate) mod raw;
 mod read;
-pub(crate) mod scan;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -23,9 +21,9 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Failure, Source, Span, Spanned, codes};
 use expr::Expr;
 
+pub(crate) use crate::text::raw::nearest;
 pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
 pub use parse::MAX_DEPTH;
-pub(crate) use raw::nearest;
 
 /// Largest accepted table file, in bytes.
 const MAX_BYTES: u64 = 16 << 20;

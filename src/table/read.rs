@@ -7,12 +7,12 @@
 use serde::Deserialize;
 
 use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
-use super::raw::{Raw, RawMap, Reader, Shape};
 use super::{
     Allow, Assumption, Case, CaseBody, Continuity, ContinuityKind, Domain, Erratum, Example, HitPolicy, Image, Input,
     LANGUAGE, Level, Line, Named, Output, Symmetry, Table,
 };
 use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
+use crate::text::raw::{Raw, RawMap, Reader, Shape};
 use std::sync::Arc;
 
 type Result<T> = std::result::Result<T, Diagnostic>;

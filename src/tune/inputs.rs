@@ -8,9 +8,9 @@ use std::fmt;
 
 use crate::analyse::admissible;
 use crate::eval::Columns;
+use crate::points::random::Random;
 use crate::profile::Profile;
 use crate::program::{Assumption, Domain, Program, Value};
-use crate::random::Random;
 
 /// Threads of a coherent run: as many as run in step on most devices.
 const RUN: usize = 32;

@@ -9,8 +9,8 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::gpu::Gpu;
 use crate::gpu::timing::{Protocol, Stopwatch, Times, interleaved};
 use crate::program::Program;
-use crate::shadow::gpu::{GpuFrame, Output, Shader, Skeleton};
-use crate::shadow::{Settings, Technique};
+use crate::technique::revectorise::gpu::{GpuFrame, Output, Shader, Skeleton};
+use crate::technique::revectorise::{Settings, Technique};
 
 /// The kinds of passes.
 const PASSES: [Output; 2] = [Output::Compute, Output::Fragment];

@@ -58,7 +58,7 @@ impl Function {
                 let rows = points.iter().map(|named| self.point(named));
                 let columns = Columns::<f32>::from_rows(&self.0, rows).unwrap_or_else(|e| panic!("{e:?}"));
                 let proved = plan::Plan::proved(&self.0, plan::Shape::Ladder).unwrap_or_else(|e| panic!("{e}"));
-                let entry = emit::harness::Entry::Levels;
+                let entry = emit::kernel::columns::Entry::Levels;
                 let kernel = gpu::Kernel::new(gpu, &proved, entry, gpu::Language::Wgsl);
                 let outputs = kernel.and_then(|kernel| kernel.run(&columns)).unwrap_or_else(|e| panic!("{e}"));
                 outputs.values[0].iter().map(|v| f64::from(*v)).collect()

@@ -83,8 +83,11 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
     // First and alone, so that the line `adapter: ...` is seen and a missing
     // adapter is the first thing that fails. `--workspace` resolves features as
     // the main run does: wgpu is built once.
-    steps.run("adapter", tests(&["test", "--workspace", "--test", "gpu_adapter", "--", "--nocapture"]))?;
-    let mut all = tests(&["test", "--workspace"]);
+    steps.run(
+        "adapter",
+        tests(&["test", "--workspace", "--features", "umbrage/trial", "--test", "gpu_adapter", "--", "--nocapture"]),
+    )?;
+    let mut all = tests(&["test", "--workspace", "--features", "umbrage/trial"]);
     all.args(arguments);
     steps.run("tests", all)?;
     licences::check(include_str!("../../deny.toml"))?;
@@ -93,7 +96,7 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
 
 /// The compiler alone, and each feature alone. Only checked, not built: no second wgpu, no second set of tests.
 fn features(steps: &mut Steps) -> Result {
-    for feature in ["", "precise", "cli", "gpu", "render", "report"] {
+    for feature in ["", "precise", "report", "render", "gpu", "cli", "trial"] {
         let set = ["clippy", "--package", "umbrage", "--no-default-features", "--features", feature];
         let mut check = cargo(&set);
         // What only another feature uses is a warning, and a mistake in a condition.

@@ -2,10 +2,10 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
-use umbrage::shadow::passes::Bias;
-use umbrage::shadow::scene::{Scene, Triangle};
-use umbrage::shadow::view::{Camera, Light, View};
-use umbrage::shadow::{DEPTH_UNIT, max_slope};
+use umbrage::scene::view::{Camera, Light, View};
+use umbrage::scene::{Scene, Triangle};
+use umbrage::technique::revectorise::stage::Bias;
+use umbrage::technique::revectorise::{DEPTH_UNIT, max_slope};
 
 /// A corner of a face, as geometry.wgsl takes it.
 #[repr(C)]

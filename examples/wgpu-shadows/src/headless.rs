@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use image::RgbaImage;
-use umbrage::shadow::scene::Scene;
+use umbrage::scene::Scene;
 
 use crate::gpu::Gpu;
 use crate::panel;

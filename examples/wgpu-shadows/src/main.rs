@@ -32,8 +32,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use umbrage::shadow::Technique;
-use umbrage::shadow::scene::Scene;
+use umbrage::scene::Scene;
+use umbrage::technique::revectorise::Technique;
 
 use shaders::PLANS;
 use view::{TECHNIQUES, View};

@@ -4,8 +4,9 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use umbrage::shadow::scene::Scene;
-use umbrage::shadow::{Settings, Technique, sheet};
+use umbrage::picture::sheet;
+use umbrage::scene::Scene;
+use umbrage::technique::revectorise::{Settings, Technique};
 use wgpu::util::DeviceExt;
 
 use crate::feedback::{CASES, Collector};

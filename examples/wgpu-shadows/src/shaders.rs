@@ -8,7 +8,7 @@ use std::time::SystemTime;
 use umbrage::build::{self, Options, Request};
 use umbrage::emit::Target;
 use umbrage::plan::{LookupPlace, Shape};
-use umbrage::shadow::Technique;
+use umbrage::technique::revectorise::Technique;
 
 /// The plans to choose from. The build script makes the same.
 pub(crate) const PLANS: [Shape; 5] =
@@ -31,7 +31,7 @@ macro_rules! compiled {
 /// stand around its tables.
 macro_rules! skeleton {
     ($($name:literal),*) => {
-        concat!($(include_str!(concat!("../../../src/shadow/gpu/wgsl/", $name, ".wgsl"))),*)
+        concat!($(include_str!(concat!("../../../src/technique/revectorise/gpu/wgsl/", $name, ".wgsl"))),*)
     };
 }
 

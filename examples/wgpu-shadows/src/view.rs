@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use umbrage::shadow::Technique;
-use umbrage::shadow::view::Camera;
+use umbrage::scene::view::Camera;
+use umbrage::technique::revectorise::Technique;
 
 /// The techniques to choose from, the cheapest first.
 pub(crate) const TECHNIQUES: [Technique; 5] =

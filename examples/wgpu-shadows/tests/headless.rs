@@ -5,10 +5,11 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use image::RgbImage;
-use umbrage::shadow::cpu::{self, Frame};
-use umbrage::shadow::passes::{Bias, Stage};
-use umbrage::shadow::scene::Scene;
-use umbrage::shadow::{Settings, Technique, shade};
+use umbrage::scene::Scene;
+use umbrage::technique::revectorise::cpu::{self, Frame};
+use umbrage::technique::revectorise::stage::{Bias, Stage};
+use umbrage::technique::revectorise::{Settings, Technique};
+use umbrage::technique::shade;
 
 const TABLE: &str = include_str!("../../../tables/rsmss.ron");
 

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::super::report::{Format, Report};
-use super::super::{Outcome, Result};
+use crate::cli::messages::{Format, Report};
+use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, changes, total_variation};
 

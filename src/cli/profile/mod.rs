@@ -1,7 +1,6 @@
 //! `umbrage profile`: counts how often each state of a table occurs.
 
 mod compare;
-#[cfg(feature = "render")]
 mod scenes;
 mod show;
 
@@ -9,11 +8,10 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-#[cfg(feature = "render")]
-use super::frame::{Backend, parse_map, parse_size, parse_technique};
+use super::messages::Report;
 use super::output::Sink;
-use super::report::Report;
-use super::{Outcome, Result, columns};
+use super::render::frame::{Backend, parse_map, parse_size, parse_technique};
+use super::{Outcome, Result, input};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, Fitted, Profile, Scene};
 use crate::program::Program;
@@ -41,32 +39,26 @@ enum Command {
 #[derive(clap::Args)]
 struct Count {
     /// Scenes to render and count: names of built-in ones, or files
-    #[cfg(feature = "render")]
     #[arg(long, value_name = "SCENE", value_delimiter = ',', conflicts_with = "frames")]
     scene: Vec<String>,
     /// The technique to render with: smsr, rsmss, rpcf
-    #[cfg(feature = "render")]
     #[arg(long, value_name = "TECHNIQUE", default_value = "rsmss", value_parser = parse_technique)]
-    technique: crate::shadow::Technique,
+    technique: crate::technique::revectorise::Technique,
     /// Size of the picture
-    #[cfg(feature = "render")]
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "960x540", value_parser = parse_size)]
     size: (u32, u32),
     /// Texels per side of the shadow map
-    #[cfg(feature = "render")]
     #[arg(long, value_name = "TEXELS", default_value = "1024", value_parser = parse_map)]
     shadow_map: u32,
     /// Longest run that is revectorised, in texels
-    #[cfg(feature = "render")]
-    #[arg(long, value_name = "TEXELS", default_value_t = crate::shadow::Settings::default().search_limit,
+    #[arg(long, value_name = "TEXELS", default_value_t = crate::technique::revectorise::Settings::default().search_limit,
           value_parser = clap::value_parser!(u32).range(1..=4096))]
     search_limit: u32,
     /// What counts: gpu uses counters of the device, and finds the same
-    #[cfg(feature = "render")]
     #[arg(long, value_enum, default_value = "cpu", value_name = "WHAT")]
     backend: Backend,
     /// The adapter: any, software, hardware, or a part of its name
-    #[cfg(all(feature = "render", feature = "gpu"))]
+    #[cfg(feature = "gpu")]
     #[arg(long, value_name = "WHICH", default_value = "any")]
     adapter: crate::gpu::AdapterChoice,
     /// The table [default for scenes: that of the technique]
@@ -104,7 +96,6 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 fn count(arguments: &Count, report: &Report) -> Result<Outcome> {
-    #[cfg(feature = "render")]
     if !arguments.scene.is_empty() {
         let (program, profile) = scenes::run(arguments, report)?;
         return finish(&program, profile, &arguments.output, report);
@@ -119,7 +110,7 @@ fn count(arguments: &Count, report: &Report) -> Result<Outcome> {
     let program = Program::read(table)?;
     let mut profile = Profile::new(&program);
     for file in &arguments.frames {
-        let columns = columns::read_all(&program, file)?;
+        let columns = input::read_all(&program, file)?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let scene = Scene::of_columns(&program, &name, &columns).map_err(|missing| {
             let input = &program.inputs[missing.input.index()].name;

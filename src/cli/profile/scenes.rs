@@ -1,19 +1,20 @@
 //! Counting what scenes need: they are rendered, and every evaluation of the table is counted.
 
-use super::super::frame;
-use super::super::report::Report;
 use super::Count;
+use crate::cli::messages::Report;
+use crate::cli::render::frame;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::Profile;
 use crate::program::Program;
-use crate::shadow::count::count;
+use crate::scene::Scene;
+use crate::technique::count::count;
 #[cfg(feature = "gpu")]
-use crate::shadow::count::count_on;
-use crate::shadow::cpu::{self, Frame};
-use crate::shadow::executor::Executor;
-use crate::shadow::passes::{Bias, Stage};
-use crate::shadow::scene::Scene;
-use crate::shadow::{Settings, Technique};
+use crate::technique::count::count_on;
+use crate::technique::executor::Executor;
+use crate::technique::revectorise::cpu;
+use crate::technique::revectorise::cpu::Frame;
+use crate::technique::revectorise::stage::{Bias, Stage};
+use crate::technique::revectorise::{Settings, Technique};
 
 /// Renders scenes and counts.
 pub(super) fn run(arguments: &Count, report: &Report) -> Result<(Program, Profile), Failure> {

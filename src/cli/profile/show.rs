@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::super::report::{Format, Report};
-use super::super::{Outcome, Result};
 use super::{excluded, read_all};
+use crate::cli::messages::{Format, Report};
+use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{Frequency, Profile, fit, frequencies};
 use crate::program::Program;
@@ -115,10 +115,9 @@ fn object(profile: &Profile) -> serde_json::Value {
     })
 }
 
-#[cfg(feature = "report")]
 fn picture(profile: &Profile, path: &std::path::Path) -> Result<()> {
-    use super::super::columns::has_extension;
-    use super::super::output::Sink;
+    use crate::cli::input::has_extension;
+    use crate::cli::output::Sink;
     let svg = crate::profile::chart(profile);
     let bytes = if has_extension(path, "svg") {
         svg.into_bytes()

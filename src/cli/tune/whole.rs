@@ -4,15 +4,15 @@ use std::io::Write;
 
 use serde_json::json;
 
-use super::super::Result;
 use super::Arguments;
+use crate::cli::Result;
 use crate::diag::Failure;
 use crate::gpu::Gpu;
 use crate::gpu::timing::Stopwatch;
 use crate::program::Program;
-use crate::shadow::gpu::{GpuFrame, Raster};
-use crate::shadow::passes::{Bias, Stage};
-use crate::shadow::scene::Scene;
+use crate::scene::Scene;
+use crate::technique::revectorise::gpu::{GpuFrame, Raster};
+use crate::technique::revectorise::stage::{Bias, Stage};
 use crate::tune::Tuning;
 use crate::tune::whole::{Frame, Whole, technique, whole};
 

@@ -1,0 +1,232 @@
+//! U0507, U0508, U0511: lines of a case: none applies, two do and differ, one never does.
+
+use crate::analyse::sets::Set;
+use crate::analyse::sets::space::View;
+use crate::analyse::sets::study::{Piece, Study};
+use crate::analyse::words;
+use crate::diag::{Diagnostic, codes};
+use crate::program::print::Printer;
+use crate::program::{CondId, ExprId, Node};
+
+/// Looks at the lines of every case.
+pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    for row in 0..study.program.rows.len() {
+        let taken = study.space.sets.and(study.rows.taken[row], study.assumed);
+        // A case that is never taken is a finding of its own.
+        if study.space.is_void(taken) {
+            continue;
+        }
+        found.extend(no_line(study, row, taken));
+        found.extend(crossing(study, row, taken));
+        found.extend(dead_lines(study, row, taken));
+    }
+    found
+}
+
+/// Where the case is taken and none of its lines applies.
+fn no_line(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> {
+    let default = study.rows.own[row].iter().filter(|piece| piece.line.is_none());
+    let default: Vec<Set> = default.map(|piece| piece.set).collect();
+    let mut without = Set::EMPTY;
+    for set in default {
+        without = study.space.sets.or(without, set);
+    }
+    let without = study.space.sets.and(without, taken);
+    let witness = study.space.witness(without)?;
+    let program = study.program;
+    let case = &program.rows[row];
+    let count = study.space.count(without);
+    let relevant = words::mentioned(program, row);
+    let message = format!("case {} can match without a line that applies: the default decides", case.id);
+    let last = case.lines.last().map_or(case.span, |line| line.span);
+    let pruned = study.space.prune(without);
+    let shown = words::conditions(&mut study.space, pruned, 3);
+    Some(
+        Diagnostic::warning(codes::NO_LINE, message)
+            .at(last, "after this line nothing is left")
+            .at(case.guard_span, "but the guard holds")
+            .help(format!("in {}, for instance at {}", words::states(count), words::at(program, &witness, relevant)))
+            .help(format!("where {}", shown.join(", or ")))
+            .help("add a line for this, or a last line without a condition"),
+    )
+}
+
+/// Pairs of lines that apply together with different values, neither of them
+/// the more special one: which counts is then an accident of their order.
+fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> {
+    let program = study.program;
+    let case = &program.rows[row];
+    let mut conditions: Vec<(usize, Set)> = Vec::new();
+    for (number, line) in case.lines.iter().enumerate() {
+        let condition = study.space.condition(line.condition, View::PLAIN);
+        if condition != Set::ALL {
+            conditions.push((number, study.space.sets.and(condition, taken)));
+        }
+    }
+    let mut pairs: Vec<(usize, usize, Set)> = Vec::new();
+    for (place, (first, here)) in conditions.iter().enumerate() {
+        for (second, there) in &conditions[place + 1..] {
+            let both = study.space.sets.and(*here, *there);
+            let alone = [study.space.sets.minus(*here, *there), study.space.sets.minus(*there, *here)];
+            if alone.iter().any(|set| study.space.is_void(*set)) || study.space.is_void(both) {
+                continue;
+            }
+            let different = lines_differ(study, row, (*first, *second), both);
+            if !study.space.is_void(different) {
+                pairs.push((*first, *second, different));
+            }
+        }
+    }
+    let (first, second, different) = *pairs.first()?;
+    let witness = study.space.witness(different)?;
+    let relevant = words::mentioned(program, row);
+    let message = match pairs.len() {
+        1 => format!(
+            "lines {} and {} of case {} can apply together, with different values",
+            first + 1,
+            second + 1,
+            case.id
+        ),
+        count => {
+            let (a, b) = (first + 1, second + 1);
+            let more = if count == 2 { "one more pair".to_owned() } else { format!("{} more pairs", count - 1) };
+            format!("lines {a} and {b} of case {} can apply together, with different values; so can {more}", case.id)
+        }
+    };
+    let mut warning = Diagnostic::warning(codes::LINES_CROSS, message)
+        .at(case.lines[second].span, "this one applies as well")
+        .at(case.lines[first].span, "this one counts, because it is written first")
+        .help(format!("for instance at {}", words::at(program, &witness, relevant)));
+    if pairs.len() > 1 {
+        let others: Vec<String> =
+            pairs[1..].iter().map(|(first, second, _)| format!("{} with {}", first + 1, second + 1)).collect();
+        warning = warning.help(format!("also lines {}", words::list(&others)));
+    }
+    Some(warning.help("make the conditions exclude each other, or acknowledge that the order decides"))
+}
+
+/// Where the values of two lines differ, within a set.
+fn lines_differ(study: &mut Study<'_>, row: usize, (first, second): (usize, usize), within: Set) -> Set {
+    let lines = &study.program.rows[row].lines;
+    let parts = [first, second].map(|line| study.space.products(&lines[line].values, View::PLAIN));
+    let mut result = Set::EMPTY;
+    for (here, a) in &parts[0] {
+        for (there, b) in &parts[1] {
+            let both = study.space.sets.and(*here, *there);
+            let both = study.space.sets.and(both, within);
+            if both.is_empty() {
+                continue;
+            }
+            let different = study.space.different(a, b);
+            let different = study.space.sets.and(both, different);
+            result = study.space.sets.or(result, different);
+        }
+    }
+    result
+}
+
+/// Lines, and choices inside values, that never count.
+fn dead_lines(study: &mut Study<'_>, row: usize, taken: Set) -> Vec<Diagnostic> {
+    let program = study.program;
+    let case = &program.rows[row];
+    let mut found = Vec::new();
+    let mut rest = taken;
+    for (number, line) in case.lines.iter().enumerate() {
+        let condition = study.space.condition(line.condition, View::PLAIN);
+        let counts = study.space.sets.and(rest, condition);
+        if study.space.is_void(counts) {
+            found.push(dead_line(study, row, number));
+        } else {
+            for value in &line.values {
+                dead_choices(study, (row, number), *value, counts, &mut found);
+            }
+        }
+        rest = study.space.sets.minus(rest, condition);
+    }
+    found
+}
+
+fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
+    let program = study.program;
+    let case = &program.rows[row];
+    let line = &case.lines[number];
+    let here = |piece: &&Piece| piece.line == Some(number);
+    let anywhere: Vec<Set> = study.rows.own[row].iter().filter(here).map(|piece| piece.set).collect();
+    let mut counts = Set::EMPTY;
+    for set in anywhere {
+        let set = study.space.sets.and(set, study.rows.taken[row]);
+        counts = study.space.sets.or(counts, set);
+    }
+    let condition = study.space.condition(line.condition, View::PLAIN);
+    let holds = study.space.sets.and(condition, study.rows.taken[row]);
+    let holds = if study.space.is_void(holds) { holds } else { study.space.sets.and(holds, study.assumed) };
+    let message = format!("line {} of case {} never counts", number + 1, case.id);
+    let warning = Diagnostic::warning(codes::DEAD_LINE, message);
+    if !study.space.is_void(counts) {
+        let blamed: Vec<String> = study.blame(counts).into_iter().map(|name| format!("`{name}`")).collect();
+        return warning
+            .at(line.span, format!("{} rules this out", words::list(&blamed)))
+            .help("mend its condition or the assumption, or remove the line");
+    }
+    if study.space.is_void(holds) {
+        return warning
+            .at(line.span, "its condition never holds where the case is taken")
+            .at(case.guard_span, "the guard")
+            .help("mend the condition, or remove the line");
+    }
+    let mut warning = warning.at(line.span, "wherever its condition holds, an earlier line counts");
+    for earlier in case.lines[..number].iter() {
+        let condition = study.space.condition(earlier.condition, View::PLAIN);
+        if warning.labels.len() < 4 && study.space.can_meet(condition, holds) {
+            warning = warning.at(earlier.span, "this one");
+        }
+    }
+    warning.help("mend the conditions, move the line up, or remove it")
+}
+
+/// Choices inside a value that never go one way. What a name of the table
+/// stands for is left alone: it may be needed elsewhere.
+fn dead_choices(study: &mut Study<'_>, place: (usize, usize), value: ExprId, within: Set, found: &mut Vec<Diagnostic>) {
+    if study.space.pool.label(value).is_some() || !study.space.pool.expr_facts(value).selects {
+        return;
+    }
+    match study.space.pool.node(value) {
+        Node::Const(_) | Node::Input(_) | Node::Result => {}
+        Node::Unary(_, a) => dead_choices(study, place, a, within, found),
+        Node::Binary(_, a, b) => [a, b].into_iter().for_each(|part| dead_choices(study, place, part, within, found)),
+        Node::Ternary(_, a, b, c) => {
+            [a, b, c].into_iter().for_each(|part| dead_choices(study, place, part, within, found));
+        }
+        Node::Select(condition, a, b) => {
+            let holds = study.space.condition(condition, View::PLAIN);
+            let (then, other) = (study.space.sets.and(within, holds), study.space.sets.minus(within, holds));
+            if study.space.is_void(then) {
+                found.push(dead_choice(study, place, condition, then));
+            } else {
+                dead_choices(study, place, a, then, found);
+            }
+            // The end of a chain may be there for completeness only.
+            if !study.space.is_void(other) {
+                dead_choices(study, place, b, other, found);
+            }
+        }
+    }
+}
+
+fn dead_choice(study: &mut Study<'_>, (row, line): (usize, usize), condition: CondId, never: Set) -> Diagnostic {
+    let program = study.program;
+    let case = &program.rows[row];
+    let asked = Printer { pool: &study.space.pool, inputs: &program.inputs }.cond(condition);
+    let message = format!("a part of the value of case {} never counts", case.id);
+    let warning = Diagnostic::warning(codes::DEAD_LINE, message)
+        .at(case.lines[line].span, format!("where this is asked, `{asked}` never holds"));
+    let warning = match never.is_empty() {
+        true => warning.at(case.guard_span, "given this guard and the choices before"),
+        false => {
+            let blamed: Vec<String> = study.blame(never).into_iter().map(|name| format!("`{name}`")).collect();
+            warning.help(format!("{} rules it out", words::list(&blamed)))
+        }
+    };
+    warning.help("remove this choice, or mend the guard")
+}

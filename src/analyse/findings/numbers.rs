@@ -1,0 +1,297 @@
+//! U0513 to U0515: numbers: values that the clamp always cuts, operations that
+//! can leave the numbers, comparisons for equality.
+
+use crate::analyse::sets::Set;
+use crate::analyse::sets::study::{Piece, Study};
+use crate::analyse::values::point::Point;
+use crate::analyse::values::real;
+use crate::analyse::values::real::{Boxed, Trouble};
+use crate::analyse::words;
+use crate::diag::{Diagnostic, codes};
+use crate::program::print::Printer;
+use crate::program::{Comparison, Cond, CondId, ExprId, Node, Program, TernaryOp};
+
+/// What a row gives before and after the output's clamp.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The row, as an index into [`Program::rows`]; `None` where no row is taken.
+    pub row: Option<usize>,
+    /// Smallest and largest value before the clamp.
+    pub before: (f64, f64),
+    /// The same after it.
+    pub after: (f64, f64),
+}
+
+/// How close to the exact bounds a range is.
+const PRECISION: f64 = 1e-3;
+
+/// What each row can give, by interval arithmetic on smaller and smaller parts
+/// of the domain: never too narrow, and too wide by at most a thousandth unless
+/// the value depends on too many inputs at once. Components are taken together.
+pub fn ranges(program: &Program) -> Vec<Range> {
+    let mut study = Study::new(program);
+    (0..program.rows.len()).map(Some).chain([None]).filter_map(|row| range(&mut study, row)).collect()
+}
+
+fn range(study: &mut Study<'_>, row: Option<usize>) -> Option<Range> {
+    let pieces = study.pieces_of(row).to_vec();
+    let (mut before, mut after) = (None, None);
+    for piece in pieces {
+        if study.space.is_void(piece.set) {
+            continue;
+        }
+        for value in piece.values {
+            let inner = words::bare(&study.space, value);
+            let (lo, hi) = real::range(study.program, &study.space.pool, inner, PRECISION);
+            widen(&mut before, (lo, hi));
+            widen(
+                &mut after,
+                match clamp(study, value) {
+                    Some((from, to)) => (lo.clamp(from, to), hi.clamp(from, to)),
+                    None => (lo, hi),
+                },
+            );
+        }
+    }
+    Some(Range { row, before: before?, after: after? })
+}
+
+fn widen(range: &mut Option<(f64, f64)>, other: (f64, f64)) {
+    let (lo, hi) = range.unwrap_or(other);
+    *range = Some((lo.min(other.0), hi.max(other.1)));
+}
+
+/// The clamp of the output, if the value has it.
+fn clamp(study: &Study<'_>, value: ExprId) -> Option<(f64, f64)> {
+    match study.space.pool.node(value) {
+        Node::Ternary(TernaryOp::Clamp, _, lo, hi) => {
+            Some((study.space.pool.constant(lo)?, study.space.pool.constant(hi)?))
+        }
+        _ => None,
+    }
+}
+
+/// Looks at every value and every comparison.
+pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+    let mut found = beyond_the_clamp(study);
+    found.extend(trouble(study));
+    found.extend(equalities(study));
+    found
+}
+
+/// Lines whose value the clamp cuts wherever they count.
+fn beyond_the_clamp(study: &mut Study<'_>) -> Vec<Diagnostic> {
+    let program = study.program;
+    let mut found = Vec::new();
+    for (row, case) in program.rows.iter().enumerate() {
+        for (line, written) in case.lines.iter().enumerate() {
+            let Some((lo, hi)) = written.values.first().and_then(|value| clamp(study, *value)) else { continue };
+            let pieces = study.pieces_of(Some(row)).iter().filter(|piece| piece.line == Some(line));
+            let pieces: Vec<_> = pieces.cloned().collect();
+            let mut sides = [true, true];
+            let mut counts = false;
+            for piece in pieces {
+                let set = study.space.sets.and(piece.set, study.assumed);
+                if study.space.is_void(set) {
+                    continue;
+                }
+                counts = true;
+                for value in piece.values {
+                    let inner = words::bare(&study.space, value);
+                    let (low, high) = (study.space.pool.number(lo), study.space.pool.number(hi));
+                    let (above, below) = (study.space.less(high, inner), study.space.less(inner, low));
+                    for (side, beyond) in sides.iter_mut().zip([above, below]) {
+                        let inside = study.space.sets.minus(set, beyond);
+                        *side &= study.space.is_void(inside);
+                    }
+                }
+            }
+            let beyond = match sides {
+                [true, false] if counts => (hi, "above"),
+                [false, true] if counts => (lo, "below"),
+                _ => continue,
+            };
+            let message = format!("the value of case {} is always clamped to {}", case.id, beyond.0);
+            found.push(
+                Diagnostic::warning(codes::OUT_OF_RANGE, message)
+                    .at(written.span, format!("wherever this counts it is {} {}", beyond.1, beyond.0))
+                    .help(format!("write {}, or mend the formula", beyond.0)),
+            );
+        }
+    }
+    found
+}
+
+/// Operations that can yield infinity or NaN.
+fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
+    let program = study.program;
+    let mut found: Vec<Diagnostic> = Vec::new();
+    for piece in study.pieces.clone() {
+        let set = study.space.sets.and(piece.set, study.assumed);
+        for value in &piece.values {
+            if !real::is_partial(&study.space.pool, *value) || study.space.is_void(set) {
+                continue;
+            }
+            let (trouble, numbers) = match search(study, &piece, set, *value) {
+                Search::Found(trouble, numbers) => (trouble, numbers),
+                Search::Nothing => continue,
+                Search::Unknown => {
+                    found.extend(undecided(study, piece.row, piece.line));
+                    continue;
+                }
+            };
+            let span = match (piece.row.map(|row| &program.rows[row]), piece.line) {
+                (Some(row), Some(line)) => row.lines[line].span,
+                (Some(row), None) => row.span,
+                (None, _) => program.hit_policy_span,
+            };
+            let name = piece.row.map_or("the default".to_owned(), |row| format!("case {}", program.rows[row].id));
+            let message = format!("the value of {name} can leave the numbers");
+            if found.iter().any(|other| other.message == message && other.labels[0].span == span) {
+                continue;
+            }
+            let what = Printer { pool: &study.space.pool, inputs: &program.inputs }.expr(trouble.expr);
+            let mut warning =
+                Diagnostic::warning(codes::NOT_A_NUMBER, message).at(span, format!("`{what}` {}", trouble.what));
+            if let Some(mut witness) = study.space.with_numbers(set, &numbers) {
+                witness.numbers = numbers.iter().map(|number| Some(*number)).collect();
+                let relevant = study.space.pool.expr_facts(*value).inputs;
+                warning = warning.help(format!("for instance at {}", words::at(program, &witness, relevant)));
+            }
+            found.push(warning.help("guard against it with a line of its own, or with max, clamp or select"));
+        }
+    }
+    found
+}
+
+/// Most boxes that the search for trouble looks at.
+const MAX_BOXES: usize = 1024;
+
+/// How a search for trouble ended.
+enum Search {
+    Found(Trouble, Vec<f64>),
+    Nothing,
+    /// Out of patience.
+    Unknown,
+}
+
+/// A note on a value for which the search gave up.
+fn undecided(study: &Study<'_>, row: Option<usize>, line: Option<usize>) -> Option<Diagnostic> {
+    let row = &study.program.rows[row?];
+    let message = format!("whether the value of case {} can leave the numbers was not decided", row.id);
+    let note = Diagnostic::note(codes::NOT_ANALYSED, message);
+    let note = note.at(line.map_or(row.span, |line| row.lines[line].span), "");
+    Some(note.help(format!("it depends on too many inputs at once: {MAX_BOXES} parts of the domain were looked at")))
+}
+
+/// A point of a set at which an operation in a value fails, if there is one;
+/// what cannot be excluded counts if it is inside the set.
+fn search(study: &mut Study<'_>, piece: &Piece, set: Set, value: ExprId) -> Search {
+    let program = study.program;
+    let inputs = study.space.pool.expr_facts(value).inputs;
+    let whole = Boxed::domain(program);
+    let mut pending = std::collections::VecDeque::from([whole]);
+    let mut looked = 0;
+    while let Some(part) = pending.pop_front() {
+        let Some(trouble) = real::trouble(&study.space.pool, value, &part) else { continue };
+        if !study.space.can_be_in(set, &part) {
+            continue;
+        }
+        let (mut inside, mut corners) = (0, 0);
+        for point in part.corners(inputs) {
+            corners += 1;
+            if is_in(study, piece, set, &point) {
+                inside += 1;
+                if real::trouble(&study.space.pool, value, &Boxed::at(&point)).is_some() {
+                    return Search::Found(trouble, point);
+                }
+            }
+        }
+        looked += 1;
+        if part.width(inputs) < 1e-6 {
+            // All around lies in the set, and no smaller box will tell.
+            if inside == corners {
+                return Search::Found(trouble, part.middle());
+            }
+            continue;
+        }
+        if looked >= MAX_BOXES {
+            return Search::Unknown;
+        }
+        pending.extend(part.halves(inputs));
+    }
+    Search::Nothing
+}
+
+/// Whether a piece gives its value at these numbers, for some levels.
+fn is_in(study: &mut Study<'_>, piece: &Piece, set: Set, numbers: &[f64]) -> bool {
+    let Some(witness) = study.space.with_numbers(set, numbers) else { return false };
+    // What is not linear was taken to be possible, so the program itself is asked.
+    let outcome = Point::of(study.program, &witness).outcome(study.program);
+    (outcome.row, outcome.line) == (piece.row, piece.line)
+}
+
+/// Comparisons for equality in guards, conditions and values. In assumptions they are how a line is described.
+fn equalities(study: &mut Study<'_>) -> Vec<Diagnostic> {
+    let program = study.program;
+    let pool = &program.pool;
+    let mut found = Vec::new();
+    for row in &program.rows {
+        let mut seen = Vec::new();
+        conditions_in(program, row.guard, &mut seen);
+        let guard = equality(program, &seen).map(|(a, b)| (row.guard_span, a, b));
+        let lines = row.lines.iter().filter_map(|line| {
+            let mut seen = Vec::new();
+            conditions_in(program, line.condition, &mut seen);
+            line.values.iter().for_each(|value| choices_in(program, *value, &mut seen));
+            equality(program, &seen).map(|(a, b)| (line.span, a, b))
+        });
+        let Some((span, a, b)) = guard.into_iter().chain(lines).next() else { continue };
+        let printer = Printer { pool, inputs: &program.inputs };
+        let text = format!("{} == {}", printer.expr(a), printer.expr(b));
+        found.push(
+            Diagnostic::warning(codes::FLOAT_EQUALITY, format!("case {} compares numbers for equality", row.id))
+                .at(span, format!("`{text}` holds on a line that rounding misses"))
+                .help("declare the input as Levels if it has few values, or compare with < or <="),
+        );
+    }
+    found
+}
+
+fn equality(program: &Program, conditions: &[CondId]) -> Option<(ExprId, ExprId)> {
+    conditions.iter().find_map(|condition| match program.pool.cond(*condition) {
+        Cond::Compare(Comparison::Equal, a, b) => Some((*a, *b)),
+        _ => None,
+    })
+}
+
+fn conditions_in(program: &Program, condition: CondId, found: &mut Vec<CondId>) {
+    if found.contains(&condition) {
+        return;
+    }
+    found.push(condition);
+    match program.pool.cond(condition) {
+        Cond::Const(_) | Cond::Level(..) => {}
+        Cond::Compare(_, a, b) => [a, b].into_iter().for_each(|part| choices_in(program, *part, found)),
+        Cond::Not(a) => conditions_in(program, *a, found),
+        Cond::And(list) | Cond::Or(list) => list.iter().for_each(|part| conditions_in(program, *part, found)),
+        Cond::If(c, a, b) => [c, a, b].into_iter().for_each(|part| conditions_in(program, *part, found)),
+    }
+}
+
+fn choices_in(program: &Program, value: ExprId, found: &mut Vec<CondId>) {
+    if !program.pool.expr_facts(value).selects {
+        return;
+    }
+    let mut all = |parts: &[ExprId]| parts.iter().for_each(|part| choices_in(program, *part, found));
+    match program.pool.node(value) {
+        Node::Const(_) | Node::Input(_) | Node::Result => {}
+        Node::Unary(_, a) => all(&[a]),
+        Node::Binary(_, a, b) => all(&[a, b]),
+        Node::Ternary(_, a, b, c) => all(&[a, b, c]),
+        Node::Select(condition, a, b) => {
+            all(&[a, b]);
+            conditions_in(program, condition, found);
+        }
+    }
+}

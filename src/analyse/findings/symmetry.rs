@@ -1,0 +1,342 @@
+//! U0506, U0512: declared symmetries that the table does not have everywhere.
+//!
+//! Where a case contradicts its image, one of the two is wrong, and a pair alone
+//! does not say which. But the images of the images have a say as well: if most
+//! agree, the case in the minority is the one to mend, and the others say how.
+//! Symmetries that leave the result alone are asked first; only if they are
+//! undecided do those that change it (light and shadow exchanged) vote too.
+
+use std::collections::BTreeMap;
+
+use crate::analyse::sets::Set;
+use crate::analyse::sets::space::View;
+use crate::analyse::sets::study::{Piece, Study};
+use crate::analyse::values::orbit;
+use crate::analyse::values::orbit::Orbit;
+use crate::analyse::values::point::Point;
+use crate::analyse::words;
+use crate::diag::{Diagnostic, Span, codes};
+use crate::program::{ExprId, InputSet, Program, Symmetry};
+
+/// Where two pieces of a program contradict each other under a symmetry.
+struct Contradiction {
+    symmetry: usize,
+    rows: (Option<usize>, Option<usize>),
+    set: Set,
+}
+
+/// A case, or the default, and the line that gives its value, or the default.
+type Place = (Option<usize>, Option<usize>);
+
+/// What is known of a line that disagrees with most of its images.
+struct Odd {
+    point: Point,
+    votes: (usize, usize),
+    along: Vec<usize>,
+}
+
+/// Rows; `None` is the default.
+type Rows = Vec<Option<usize>>;
+
+/// A warning for each line that most of its images contradict, and for cases
+/// that contradict each other undecidedly; a note where only assumptions help.
+pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+    let program = study.program;
+    let mut odd: BTreeMap<Place, Odd> = BTreeMap::new();
+    let mut torn: BTreeMap<(Rows, Rows), (Point, Vec<usize>)> = BTreeMap::new();
+    // By the symmetry and the first of the two rows, in the order written.
+    let mut assumed: BTreeMap<(Option<usize>, usize), Vec<Contradiction>> = BTreeMap::new();
+    let all: Vec<usize> = (0..program.symmetries.len()).collect();
+    let plain: Vec<usize> = all.iter().copied().filter(|s| program.symmetries[*s].result.is_none()).collect();
+    for number in 0..program.symmetries.len() {
+        let (broken, saved) = contradictions(study, number);
+        for contradiction in saved {
+            let (a, b) = contradiction.rows;
+            let group = assumed.entry((a.min(b), number)).or_default();
+            if group.iter().all(|other| other.rows != (b, a) && other.rows != (a, b)) {
+                group.push(contradiction);
+            }
+        }
+        for contradiction in broken {
+            let Some(witness) = study.space.witness(contradiction.set) else { continue };
+            let start = Point::of(program, &witness);
+            let changes = program.symmetries[number].result.is_some();
+            let near = Orbit::new(program, start.clone(), &plain);
+            if changes {
+                // Whose own images disagree has been reported for that.
+                let far = Orbit::new(program, start.image(&program.pool, &program.symmetries[number]), &plain);
+                if !near.is_unanimous() || !far.is_unanimous() {
+                    continue;
+                }
+            }
+            if !changes && near.is_unanimous() {
+                continue;
+            }
+            let wide = Orbit::new(program, start.clone(), &all);
+            // Others may settle what the nearest images leave open, but only by taking one of their sides.
+            let sides_with_near = |orbit: &Orbit| {
+                let mut camp = orbit.camps[0].iter().map(|member| &orbit.members[*member].point);
+                camp.any(|point| near.members.iter().any(|member| member.point == *point))
+            };
+            let verdict = match (changes, near.has_majority()) {
+                (true, _) => None,
+                (false, true) => Some((&near, &plain)),
+                (false, false) if wide.has_majority() && sides_with_near(&wide) => Some((&wide, &all)),
+                (false, false) => None,
+            };
+            if let Some((orbit, along)) = verdict {
+                let votes = (orbit.camps[0].len(), orbit.members.len());
+                for member in orbit.camps[1..].iter().flatten() {
+                    let member = &orbit.members[*member];
+                    let place = (member.outcome.row, member.outcome.line);
+                    odd.entry(place).or_insert_with(|| Odd {
+                        point: member.point.clone(),
+                        votes,
+                        along: along.clone(),
+                    });
+                }
+                continue;
+            }
+            let (orbit, along) = if changes { (&wide, &all) } else { (&near, &plain) };
+            if orbit.is_unanimous() {
+                continue;
+            }
+            let rows = |camp: usize| {
+                let mut rows: Vec<Option<usize>> = orbit.places(camp).into_iter().map(|(row, _)| row).collect();
+                rows.dedup();
+                rows
+            };
+            let key = (rows(0).min(rows(1)), rows(0).max(rows(1)));
+            torn.entry(key).or_insert_with(|| (start, along.clone()));
+        }
+    }
+    let mut found: Vec<Diagnostic> = Vec::new();
+    for (place, odd) in odd {
+        found.extend(odd_one_out(study, place, &odd));
+    }
+    for ((first, second), (point, along)) in &torn {
+        found.extend(undecided(study, (first, second), point, along));
+    }
+    found.extend(assumed.into_values().filter_map(|group| only_assumed(study, &group)));
+    found
+}
+
+/// Where the table contradicts a symmetry: on inputs that the assumptions admit
+/// with their images, and then pairs of rows for which this only happens on others.
+fn contradictions(study: &mut Study<'_>, number: usize) -> (Vec<Contradiction>, Vec<Contradiction>) {
+    let symmetry = &study.program.symmetries[number];
+    let view = study.space.view(&symmetry.levels, &symmetry.numbers, View::PLAIN);
+    let (images, image_assumed) = study.seen(view);
+    let admitted = study.space.sets.and(study.assumed, image_assumed);
+    let (mut broken, mut saved) = (Vec::new(), Vec::new());
+    for piece in study.pieces.clone() {
+        for image in &images {
+            let both = study.space.sets.and(piece.set, image.set);
+            if both.is_empty() {
+                continue;
+            }
+            let different = differ(study, symmetry, &piece, image);
+            let set = study.space.sets.and(both, different);
+            if study.space.is_void(set) {
+                continue;
+            }
+            let occurs = study.space.sets.and(set, admitted);
+            let rows = (piece.row, image.row);
+            match study.space.is_void(occurs) {
+                true => saved.push(Contradiction { symmetry: number, rows, set }),
+                false => broken.push(Contradiction { symmetry: number, rows, set: occurs }),
+            }
+        }
+    }
+    let is_broken = |rows| broken.iter().any(|other: &Contradiction| other.rows == rows);
+    saved.retain(|contradiction| !is_broken(contradiction.rows));
+    (broken, saved)
+}
+
+/// Where a value, mapped as results are, is not the value of the image.
+fn differ(study: &mut Study<'_>, symmetry: &Symmetry, piece: &Piece, image: &Piece) -> Set {
+    let Some(map) = symmetry.result else { return study.space.different(&piece.values, &image.values) };
+    let mut result = Set::EMPTY;
+    for (value, other) in piece.values.iter().zip(&image.values) {
+        let mapped = study.space.with_result(map, *value);
+        let different = study.space.different(&[mapped], &[*other]);
+        result = study.space.sets.or(result, different);
+    }
+    result
+}
+
+/// The line that gives the value at a place, or what stands in for it.
+fn span(program: &Program, (row, line): Place, otherwise: Span) -> Span {
+    match (row.map(|row| &program.rows[row]), line) {
+        (Some(row), Some(line)) => row.lines[line].span,
+        (Some(row), None) => row.lines.last().map_or(row.span, |line| line.span),
+        (None, _) => otherwise,
+    }
+}
+
+/// A place as it is called in sentences.
+fn called(program: &Program, (row, line): Place) -> String {
+    match (row.map(|row| &program.rows[row]), line) {
+        (Some(row), Some(line)) if row.lines.len() > 1 => format!("line {} of case {}", line + 1, row.id),
+        (Some(row), Some(_)) => format!("case {}", row.id),
+        (Some(row), None) => format!("case {}, which has no line for this,", row.id),
+        (None, _) => "the default".to_owned(),
+    }
+}
+
+/// The symmetries that an argument rests on.
+fn by(program: &Program, along: &[usize]) -> String {
+    let names: Vec<String> = along.iter().map(|number| format!("`{}`", program.symmetries[*number].name)).collect();
+    words::list(&names)
+}
+
+/// A point as `explain` takes it, without fetched inputs that no line of the case reads.
+fn place_at(study: &Study<'_>, point: &Point, row: Option<usize>) -> String {
+    let program = study.program;
+    let pool = &program.pool;
+    let read = match row {
+        None => program.default.iter().fold(Default::default(), |all: InputSet, v| all.or(pool.expr_facts(*v).inputs)),
+        Some(row) => words::mentioned(program, row),
+    };
+    let wanted: Vec<bool> = program.input_ids().map(|(id, i)| i.fetched.is_none() || read.contains(id)).collect();
+    words::at(program, &point.witness(program, &wanted), read)
+}
+
+fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnostic> {
+    let program = study.program;
+    let orbit = Orbit::new(program, odd.point.clone(), &odd.along);
+    let opponent = orbit.opponent()?;
+    let (row, line) = place;
+    let wrong = match row.zip(line) {
+        Some((row, line)) => &program.rows[row].lines[line].values,
+        None => &program.default,
+    };
+    let wrong: Vec<ExprId> =
+        wrong.iter().map(|value| orbit::chosen(&mut study.space.pool, *value, &odd.point)).collect();
+    let right = orbit::expected(study, opponent)?;
+    let (was, should) = (words::simplified(&mut study.space, &wrong), words::simplified(&mut study.space, &right));
+    let name = called(program, place);
+    let (most, total) = odd.votes;
+    let message = format!("{name} is the odd one out: {most} of {total} images agree on another value");
+    let other = (opponent.outcome.row, opponent.outcome.line);
+    let symmetric = program.symmetries[odd.along[0]].span;
+    let mut warning = Diagnostic::warning(codes::SYMMETRY_BROKEN, message)
+        .at(span(program, place, symmetric), format!("here it gives {was}"));
+    if other.0 != row || other.1 != line {
+        warning =
+            warning.at(span(program, other, symmetric), format!("{} says {should} for it", called(program, other)));
+    }
+    let numbers = |values: &[f64]| values.iter().map(|value| words::short(*value)).collect::<Vec<_>>().join(", ");
+    let own = &orbit.members[0];
+    let what = format!(
+        "at {} it gives {}, its images under {} say {}",
+        place_at(study, &odd.point, row),
+        numbers(&own.says),
+        by(program, &odd.along),
+        numbers(&opponent.says)
+    );
+    Some(warning.help(what).help(match line {
+        Some(_) => format!("to mend it, write `{should}` for `{was}` there"),
+        None => format!("to mend it, add a line that gives `{should}` there"),
+    }))
+}
+
+fn undecided(
+    study: &mut Study<'_>,
+    (first, second): (&[Option<usize>], &[Option<usize>]),
+    point: &Point,
+    along: &[usize],
+) -> Option<Diagnostic> {
+    let program = study.program;
+    let orbit = Orbit::new(program, point.clone(), along);
+    let opponent = orbit.opponent()?;
+    let own = &orbit.members[0];
+    let (here, there) = ((own.outcome.row, own.outcome.line), (opponent.outcome.row, opponent.outcome.line));
+    let should = orbit::expected(study, opponent)?;
+    let should = words::simplified(&mut study.space, &should);
+    let mut rows: Vec<Option<usize>> = first.iter().chain(second).copied().collect();
+    rows.sort_unstable();
+    rows.dedup();
+    let names = words::cases(program, &rows);
+    let message = match rows.len() {
+        1 => format!("{names} contradicts its own image"),
+        _ => format!("{names} contradict each other as images"),
+    };
+    let symmetric = program.symmetries[along[0]].span;
+    let mut warning = Diagnostic::warning(codes::SYMMETRY_BROKEN, message)
+        .at(span(program, here, symmetric), format!("{} gives {} here", called(program, here), short(&own.says)));
+    if there != here {
+        warning = warning.at(
+            span(program, there, symmetric),
+            format!("{} says {} for the same, that is {should}", called(program, there), short(&opponent.says)),
+        );
+    }
+    let at = place_at(study, point, here.0);
+    Some(
+        warning
+            .help(format!("at {at}, under {}", by(program, along)))
+            .help("as many images say the one as the other: mend one of them, or acknowledge that they differ"),
+    )
+}
+
+fn short(values: &[f64]) -> String {
+    values.iter().map(|value| words::short(*value)).collect::<Vec<_>>().join(", ")
+}
+
+/// A note on rows that contradict one row only where no assumption admits it.
+fn only_assumed(study: &mut Study<'_>, group: &[Contradiction]) -> Option<Diagnostic> {
+    let program = study.program;
+    let contradiction = group.first()?;
+    let symmetry = &program.symmetries[contradiction.symmetry];
+    let row = contradiction.rows.0.min(contradiction.rows.1);
+    let mut others: Vec<Option<usize>> = group.iter().map(|pair| pair.rows.0.max(pair.rows.1)).collect();
+    others.sort_unstable();
+    others.dedup();
+    let name = words::cases(program, &[row]);
+    let message = match others.as_slice() {
+        [one] if *one == row => format!("{name} is its own image under `{}` by assumption only", symmetry.name),
+        _ => format!("{name} agrees with its images under `{}` by assumption only: {}", symmetry.name, {
+            words::cases(program, &others)
+        }),
+    };
+    let blamed: Vec<String> = study.blame(contradiction.set).into_iter().map(|name| format!("`{name}`")).collect();
+    let span = row.map_or(symmetry.span, |row| program.rows[row].guard_span);
+    let note = Diagnostic::note(codes::SYMMETRY_ASSUMED, message).at(span, "");
+    let taken = match blamed.is_empty() {
+        // The image of an assumption rules it out.
+        true => "it takes the assumptions for the inputs and for their images".to_owned(),
+        false => format!("it takes {}", words::list(&blamed)),
+    };
+    let witness = study.space.witness(contradiction.set)?;
+    let at = place_at(study, &Point::of(program, &witness), contradiction.rows.0);
+    Some(note.help(taken).help(format!("otherwise they differ, for instance at {at}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::analyse::found;
+
+    fn mirrored(value: &str) -> Vec<String> {
+        let all = found(&format!(
+            r#"Table(language: 1, name: "t", hit_policy: First,
+                inputs: {{"s": Levels(values: {{"left": 0, "right": 1}}), "x": Range(from: 0, to: 1)}},
+                symmetries: {{
+                    "mirror": Symmetry(map: {{"s": {{"left": "right", "right": "left"}}, "x": "1 - x"}}),
+                    "swap": Symmetry(map: {{"x": "1 - x"}}, result: "1 - value"),
+                }},
+                output: Number(clamp: (0, 1)),
+                cases: [Case(id: 1, when: "s == left || s == right", value: "{value}")],
+                default: 0)"#
+        ));
+        all.into_iter().filter(|finding| finding.starts_with("U0506")).collect()
+    }
+
+    #[test]
+    fn broken_symmetries_are_found() {
+        assert_eq!(mirrored("if s == left { 2 * x } else { 2 - 2 * x }"), ["U0506 case 1 contradicts its own image"]);
+        assert_eq!(mirrored("if s == left { x } else { x }"), ["U0506 case 1 contradicts its own image"]);
+        // Equal only once clamped, and only because x ends at 1.
+        assert_eq!(mirrored("if s == left { min(x, 1) } else { max(1 - x, 0) }"), [""; 0]);
+        assert_eq!(mirrored("if x < 0.5 { 0.25 } else { if x == 0.5 { 0.5 } else { 0.75 } }").len(), 1);
+    }
+}

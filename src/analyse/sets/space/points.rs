@@ -1,0 +1,251 @@
+//! Points of sets: whether levels and real numbers can reach a set, and which do.
+
+use std::collections::{BTreeMap, HashSet};
+
+use num_traits::Zero;
+
+use super::{Question, Space, code};
+use crate::analyse::sets::Set;
+use crate::analyse::values::real::Boxed;
+use crate::program::normal::{Rational, Term, rational};
+use crate::program::region::{self, Sign};
+use crate::program::{Domain, InputId, LevelSet};
+
+/// Most steps in the search for real numbers with given signs.
+const MAX_STEPS: usize = 20_000;
+
+impl Space<'_> {
+    /// What real numbers and levels can reach of a set.
+    ///
+    /// A combination of signs that some numbers have is kept together with
+    /// others that differ from it in signs only.
+    pub(in crate::analyse) fn prune(&mut self, set: Set) -> Set {
+        let Some((digit, children)) = self.sets.test(set) else { return set };
+        if let Some(known) = self.pruned.get(&set) {
+            return *known;
+        }
+        let result = if digit >= self.inputs_of_digits.len() {
+            if self.signs(set).is_some() { set } else { Set::EMPTY }
+        } else {
+            let children = children.to_vec();
+            let children: Vec<Set> = children.into_iter().map(|child| self.prune(child)).collect();
+            self.sets.node(digit, &children)
+        };
+        self.pruned.insert(set, result);
+        result
+    }
+
+    /// Whether nothing can reach a set.
+    pub(in crate::analyse) fn is_void(&mut self, set: Set) -> bool {
+        // Without comparisons every combination of levels can be reached.
+        if self.questions.is_empty() { set.is_empty() } else { self.prune(set).is_empty() }
+    }
+
+    /// Whether something can reach both sets.
+    pub(in crate::analyse) fn can_meet(&mut self, a: Set, b: Set) -> bool {
+        if !self.sets.meets(a, b) {
+            return false;
+        }
+        if self.questions.is_empty() {
+            return true;
+        }
+        let both = self.sets.and(a, b);
+        !self.is_void(both)
+    }
+
+    /// The states in which something can reach a set.
+    pub(in crate::analyse) fn states(&mut self, set: Set) -> Set {
+        let pruned = self.prune(set);
+        self.sets.shadow(pruned, self.state_digits())
+    }
+
+    /// In how many states something can reach a set.
+    pub(in crate::analyse) fn count(&mut self, set: Set) -> usize {
+        let states = self.states(set);
+        self.sets.count(states, self.state_digits()).round() as usize
+    }
+
+    /// Signs and outcomes, by digit, with which numbers reach a set that tests only these.
+    pub(super) fn signs(&mut self, set: Set) -> Option<Vec<(usize, u8)>> {
+        let mut found = Vec::new();
+        let mut steps = MAX_STEPS;
+        self.search(set, &mut found, &mut steps).then_some(found)
+    }
+
+    fn search(&mut self, set: Set, found: &mut Vec<(usize, u8)>, steps: &mut usize) -> bool {
+        if set.is_empty() {
+            return false;
+        }
+        *steps = steps.saturating_sub(1);
+        let Some((digit, children)) = self.sets.test(set) else { return true };
+        // Out of patience: what was not refuted is taken to be possible.
+        if *steps == 0 {
+            return true;
+        }
+        // Points on lines mean more than they seem to, so zero is tried last.
+        let order: &[usize] = if children.len() == Sign::ALL.len() { &[0, 2, 1] } else { &[0, 1] };
+        let children: Vec<(usize, Set)> = order.iter().map(|level| (*level, children[*level])).collect();
+        for (level, child) in children {
+            if child.is_empty() {
+                continue;
+            }
+            found.push((digit, level as u8));
+            if self.possible(found) && self.search(child, found, steps) {
+                return true;
+            }
+            found.pop();
+        }
+        false
+    }
+
+    /// Whether some numbers have all these signs.
+    fn possible(&mut self, answers: &[(usize, u8)]) -> bool {
+        let signs = self.forms_of(answers);
+        if let Some(known) = self.possible.get(&signs) {
+            return *known;
+        }
+        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+        let possible = region::can_hold(self.program, with_forms);
+        self.possible.insert(signs, possible);
+        possible
+    }
+
+    pub(super) fn forms_of(&self, answers: &[(usize, u8)]) -> Vec<(usize, u8)> {
+        let first = self.inputs_of_digits.len();
+        let forms = answers.iter().filter_map(|(digit, sign)| match self.questions[digit - first] {
+            Question::Sign(form) => Some((form, *sign)),
+            Question::Opaque => None,
+        });
+        forms.collect()
+    }
+
+    /// An input that reaches a set, if one does.
+    pub(in crate::analyse) fn witness(&mut self, set: Set) -> Option<Witness> {
+        let mut rest = self.prune(set);
+        let mut levels = vec![None; self.program.inputs.len()];
+        loop {
+            match self.sets.test(rest) {
+                Some((digit, children)) if digit < self.inputs_of_digits.len() => {
+                    let input = self.inputs_of_digits[digit];
+                    let open = |level: &u8| !children[usize::from(*level)].is_empty();
+                    let level = self.usual(input).filter(open).or((0..children.len() as u8).find(open))?;
+                    levels[input.index()] = Some(level);
+                    rest = children[usize::from(level)];
+                }
+                _ => break,
+            }
+        }
+        let answers = self.signs(rest)?;
+        let signs = self.forms_of(&answers);
+        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
+        let point = region::point(self.program, with_forms);
+        let linear = signs.iter().all(|(form, _)| self.forms[*form].terms.keys().all(|t| matches!(t, Term::Input(_))));
+        let certain = point.is_some() && linear && signs.len() == answers.len();
+        Some(Witness { levels, numbers: self.numbers(&point.unwrap_or_default()), certain })
+    }
+
+    /// An input that reaches a set with these numbers, if one does.
+    pub(in crate::analyse) fn with_numbers(&self, set: Set, numbers: &[f64]) -> Option<Witness> {
+        let levels = self.reach(set, &Boxed::at(numbers))?;
+        Some(Witness { levels, numbers: numbers.iter().map(|number| Some(*number)).collect(), certain: true })
+    }
+
+    /// Whether numbers of a box may reach a set.
+    pub(in crate::analyse) fn can_be_in(&self, set: Set, part: &Boxed) -> bool {
+        self.reach(set, part).is_some()
+    }
+
+    /// Levels with which numbers of a box may reach a set.
+    fn reach(&self, set: Set, part: &Boxed) -> Option<Vec<Option<u8>>> {
+        let mut levels = vec![None; self.program.inputs.len()];
+        self.reach_memo(set, part, &mut levels, &mut HashSet::new()).then_some(levels)
+    }
+
+    fn reach_memo(&self, set: Set, part: &Boxed, levels: &mut Vec<Option<u8>>, failed: &mut HashSet<Set>) -> bool {
+        let Some((digit, children)) = self.sets.test(set) else { return !set.is_empty() };
+        if failed.contains(&set) {
+            return false;
+        }
+        let input = self.input_of(digit);
+        let allowed = match input {
+            Some(_) => LevelSet::all(children.len()),
+            None => self.signs_in(digit, part),
+        };
+        for level in allowed.iter() {
+            if let Some(input) = input {
+                levels[input.index()] = Some(level);
+            }
+            if self.reach_memo(children[usize::from(level)], part, levels, failed) {
+                return true;
+            }
+        }
+        if let Some(input) = input {
+            levels[input.index()] = None;
+        }
+        failed.insert(set);
+        false
+    }
+
+    /// The signs that the form of a digit can have in a box.
+    pub(super) fn signs_in(&self, digit: usize, part: &Boxed) -> LevelSet {
+        let Question::Sign(form) = self.questions[digit - self.inputs_of_digits.len()] else {
+            return LevelSet::all(2);
+        };
+        let number = |value: Rational| *value.numer() as f64 / *value.denom() as f64;
+        let form = &self.forms[form];
+        let (mut lo, mut hi) = (number(form.constant), number(form.constant));
+        for (term, factor) in &form.terms {
+            let Term::Input(input) = term else { return LevelSet::all(Sign::ALL.len()) };
+            let ((from, to), factor) = (part.of(*input), number(*factor));
+            lo += (from * factor).min(to * factor);
+            hi += (from * factor).max(to * factor);
+        }
+        let possible = [(Sign::Positive, hi > 0.0), (Sign::Zero, lo <= 0.0 && hi >= 0.0), (Sign::Negative, lo < 0.0)];
+        let possible = possible.into_iter().filter(|(_, can)| *can);
+        LevelSet(possible.fold(0, |set, (sign, _)| set | LevelSet::one(code(sign)).0))
+    }
+
+    /// The digits of comparisons that involve one of some inputs.
+    pub(in crate::analyse) fn switches(&self, inputs: &[InputId]) -> Vec<usize> {
+        let first = self.inputs_of_digits.len();
+        let involved = |question: &Question| match question {
+            Question::Sign(form) => {
+                let terms = self.forms[*form].terms.keys();
+                terms.into_iter().any(|term| matches!(term, Term::Input(input) if inputs.contains(input)))
+            }
+            Question::Opaque => false,
+        };
+        (0..self.questions.len()).filter(|number| involved(&self.questions[*number])).map(|n| n + first).collect()
+    }
+
+    /// The level that an input has when nothing is said of it.
+    fn usual(&self, input: InputId) -> Option<u8> {
+        match self.program.inputs[input.index()].default {
+            Some(crate::program::Value::Level(level)) => Some(level),
+            _ => None,
+        }
+    }
+
+    /// A number for every continuous input: that of the point, or one in the middle of nowhere.
+    pub(super) fn numbers(&self, point: &BTreeMap<InputId, Rational>) -> Vec<Option<f64>> {
+        let number = |(index, input): (usize, &crate::program::Input)| {
+            let Domain::Continuous { lo, hi, .. } = &input.domain else { return None };
+            let known = point.get(&InputId::new(index)).copied();
+            let free = || region::between(rational(*lo)?, rational(*hi)?, index);
+            let chosen = known.or_else(free).unwrap_or_else(Rational::zero);
+            Some(*chosen.numer() as f64 / *chosen.denom() as f64)
+        };
+        self.program.inputs.iter().enumerate().map(number).collect()
+    }
+}
+
+/// Inputs that reach some set.
+#[derive(Debug, Clone)]
+pub(in crate::analyse) struct Witness {
+    /// The levels that matter.
+    pub(in crate::analyse) levels: Vec<Option<u8>>,
+    /// A number for each continuous input.
+    pub(in crate::analyse) numbers: Vec<Option<f64>>,
+    /// Whether these very inputs reach the set; otherwise something that is not linear decides.
+    pub(in crate::analyse) certain: bool,
+}

@@ -1,0 +1,162 @@
+//! What all analyses of a program start from: its rows as sets.
+
+use super::Set;
+use super::nearby::Nearby;
+use super::space::{Space, View};
+use crate::program::{ExprId, Program};
+
+/// Where a row gives a value without selections.
+#[derive(Debug, Clone)]
+pub(in crate::analyse) struct Piece {
+    /// The row, as an index into [`Program::rows`]; `None` where no row applies.
+    pub(in crate::analyse) row: Option<usize>,
+    /// The line that gives the value; `None` for the default.
+    pub(in crate::analyse) line: Option<usize>,
+    /// Where.
+    pub(in crate::analyse) set: Set,
+    /// The value, one expression per component.
+    pub(in crate::analyse) values: Vec<ExprId>,
+}
+
+/// The rows of a program, seen through one view.
+pub(in crate::analyse) struct Rows {
+    /// Where the guard of each row holds.
+    pub(in crate::analyse) guards: Vec<Set>,
+    /// Where each row is taken.
+    pub(in crate::analyse) taken: Vec<Set>,
+    /// Where no row is taken.
+    pub(in crate::analyse) unclaimed: Set,
+    /// What each row gives where its guard holds, whether or not it is taken.
+    pub(in crate::analyse) own: Vec<Vec<Piece>>,
+}
+
+impl Rows {
+    fn new(space: &mut Space<'_>, view: View) -> Self {
+        let program = space.program;
+        let mut rows = Rows { guards: Vec::new(), taken: Vec::new(), unclaimed: Set::ALL, own: Vec::new() };
+        for (number, row) in program.rows.iter().enumerate() {
+            let guard = space.condition(row.guard, view);
+            rows.guards.push(guard);
+            rows.taken.push(space.sets.and(guard, rows.unclaimed));
+            rows.unclaimed = space.sets.minus(rows.unclaimed, guard);
+            let mut pieces = Vec::new();
+            let mut rest = guard;
+            for (line, written) in row.lines.iter().enumerate() {
+                let condition = space.condition(written.condition, view);
+                let applies = space.sets.and(rest, condition);
+                rest = space.sets.minus(rest, condition);
+                split(space, view, applies, (Some(number), Some(line)), &written.values, &mut pieces);
+            }
+            split(space, view, rest, (Some(number), None), &program.default, &mut pieces);
+            rows.own.push(pieces);
+        }
+        rows
+    }
+
+    /// What the program gives, piece by piece.
+    pub(in crate::analyse) fn pieces(&self, space: &mut Space<'_>, view: View) -> Vec<Piece> {
+        let mut pieces = Vec::new();
+        for (taken, own) in self.taken.iter().zip(&self.own) {
+            for piece in own {
+                let set = space.sets.and(*taken, piece.set);
+                if !set.is_empty() {
+                    pieces.push(Piece { set, ..piece.clone() });
+                }
+            }
+        }
+        let default = &space.program.default;
+        split(space, view, self.unclaimed, (None, None), default, &mut pieces);
+        pieces
+    }
+}
+
+fn split(
+    space: &mut Space<'_>,
+    view: View,
+    within: Set,
+    (row, line): (Option<usize>, Option<usize>),
+    values: &[ExprId],
+    pieces: &mut Vec<Piece>,
+) {
+    if within.is_empty() {
+        return;
+    }
+    for (set, values) in space.products(values, view) {
+        let set = space.sets.and(within, set);
+        if !set.is_empty() {
+            pieces.push(Piece { row, line, set, values });
+        }
+    }
+}
+
+/// A program with everything that analyses share.
+pub(in crate::analyse) struct Study<'p> {
+    pub(in crate::analyse) program: &'p Program,
+    pub(in crate::analyse) space: Space<'p>,
+    pub(in crate::analyse) rows: Rows,
+    /// Which guards may hold together.
+    pub(in crate::analyse) nearby: Nearby,
+    /// What the program gives, piece by piece, in the order of rows, the default last.
+    pub(in crate::analyse) pieces: Vec<Piece>,
+    /// Where all assumptions hold.
+    pub(in crate::analyse) assumed: Set,
+}
+
+impl<'p> Study<'p> {
+    pub(in crate::analyse) fn new(program: &'p Program) -> Self {
+        let mut space = Space::new(program);
+        let rows = Rows::new(&mut space, View::PLAIN);
+        let nearby = Nearby::new(&space.sets, &rows.guards);
+        let pieces = rows.pieces(&mut space, View::PLAIN);
+        let assumed = assumed(&mut space, View::PLAIN);
+        Self { program, space, rows, nearby, pieces, assumed }
+    }
+
+    /// What a row gives where it is taken; `None` is the default.
+    pub(in crate::analyse) fn pieces_of(&self, row: Option<usize>) -> &[Piece] {
+        let place = |row: Option<usize>| row.unwrap_or(usize::MAX);
+        let start = self.pieces.partition_point(|piece| place(piece.row) < place(row));
+        let count = self.pieces[start..].partition_point(|piece| piece.row == row);
+        &self.pieces[start..start + count]
+    }
+
+    /// The later rows whose guards meet that of a row.
+    pub(in crate::analyse) fn later(&self, row: usize) -> Vec<usize> {
+        let guards = &self.rows.guards;
+        let meets = |later: &usize| *later > row && self.space.sets.meets(guards[row], guards[*later]);
+        self.nearby.of(row).filter(meets).collect()
+    }
+
+    /// The pieces of the program and its assumptions, seen through a view.
+    pub(in crate::analyse) fn seen(&mut self, view: View) -> (Vec<Piece>, Set) {
+        let rows = Rows::new(&mut self.space, view);
+        (rows.pieces(&mut self.space, view), assumed(&mut self.space, view))
+    }
+
+    /// A few assumptions without which something could reach a set that nothing
+    /// reaches where all hold: those that it takes to rule the set out.
+    pub(in crate::analyse) fn blame(&mut self, set: Set) -> Vec<&'p str> {
+        let program = self.program;
+        let mut needed: Vec<usize> = (0..program.assumptions.len()).collect();
+        for candidate in 0..program.assumptions.len() {
+            let without: Vec<usize> = needed.iter().copied().filter(|other| *other != candidate).collect();
+            let mut rest = set;
+            for assumption in &without {
+                let holds = self.space.condition(program.assumptions[*assumption].condition, View::PLAIN);
+                rest = self.space.sets.and(rest, holds);
+            }
+            if self.space.is_void(rest) {
+                needed = without;
+            }
+        }
+        needed.into_iter().map(|assumption| program.assumptions[assumption].name.as_str()).collect()
+    }
+}
+
+fn assumed(space: &mut Space<'_>, view: View) -> Set {
+    let program = space.program;
+    program.assumptions.iter().fold(Set::ALL, |set, assumption| {
+        let holds = space.condition(assumption.condition, view);
+        space.sets.and(set, holds)
+    })
+}

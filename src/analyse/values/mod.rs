@@ -1,0 +1,5 @@
+//! The values that a program can take: images of intervals, points, points under symmetries.
+
+pub(crate) mod orbit;
+pub(crate) mod point;
+pub(crate) mod real;

@@ -1,0 +1,204 @@
+//! What the images of a point under the declared symmetries say of the value
+//! there, and which of them is the odd one out.
+
+use super::point::{Outcome, Point};
+use crate::analyse::sets::space::View;
+use crate::analyse::sets::study::Study;
+use crate::program::{BinaryOp, ExprId, Node, Pool, Program, Symmetry};
+
+/// Most images of one point that are looked at.
+const MAX_MEMBERS: usize = 128;
+
+/// How a symmetry changes the result: `factor * value + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in crate::analyse) struct Scale {
+    factor: f64,
+    offset: f64,
+}
+
+impl Scale {
+    const SAME: Scale = Scale { factor: 1.0, offset: 0.0 };
+
+    /// The result map of a symmetry, unless it is not of this form or cannot be undone.
+    fn of(pool: &Pool, symmetry: &Symmetry) -> Option<Self> {
+        let Some(map) = symmetry.result else { return Some(Self::SAME) };
+        let at = |value: f64| result_at(pool, map, value);
+        let (offset, one, two) = (at(0.0)?, at(1.0)?, at(2.0)?);
+        let factor = one - offset;
+        ((two - one - factor).abs() < 1e-12 && factor != 0.0).then_some(Self { factor, offset })
+    }
+
+    /// The value that this maps to `image`.
+    fn undo(self, image: f64) -> f64 {
+        (image - self.offset) / self.factor
+    }
+
+    /// First `self`, then `next`.
+    fn then(self, next: Scale) -> Self {
+        Self { factor: self.factor * next.factor, offset: self.offset * next.factor + next.offset }
+    }
+}
+
+/// A result map at a value; it mentions nothing else.
+fn result_at(pool: &Pool, map: ExprId, value: f64) -> Option<f64> {
+    let at = |expr| result_at(pool, expr, value);
+    Some(match pool.node(map) {
+        Node::Result => value,
+        Node::Const(number) => number.get(),
+        Node::Unary(op, a) => op.apply(at(a)?),
+        Node::Binary(op, a, b) => op.apply(at(a)?, at(b)?),
+        Node::Ternary(op, a, b, c) => op.apply(at(a)?, at(b)?, at(c)?),
+        Node::Input(_) | Node::Select(..) => return None,
+    })
+}
+
+/// An image of a point.
+pub(in crate::analyse) struct Member {
+    pub(in crate::analyse) point: Point,
+    pub(in crate::analyse) outcome: Outcome,
+    /// The values that the first point must have for this one to be right.
+    pub(in crate::analyse) says: Vec<f64>,
+    /// The symmetries that lead here, as indices into [`Program::symmetries`].
+    path: Vec<usize>,
+    scale: Scale,
+}
+
+/// A point with its images.
+pub(in crate::analyse) struct Orbit {
+    pub(in crate::analyse) members: Vec<Member>,
+    /// The members that agree, most first.
+    pub(in crate::analyse) camps: Vec<Vec<usize>>,
+}
+
+impl Orbit {
+    /// Follows some symmetries from a point, to wherever the assumptions hold.
+    pub(in crate::analyse) fn new(program: &Program, start: Point, along: &[usize]) -> Self {
+        let pool = &program.pool;
+        let scales: Vec<(usize, Scale)> =
+            along.iter().filter_map(|number| Some((*number, Scale::of(pool, &program.symmetries[*number])?))).collect();
+        let outcome = start.outcome(program);
+        let first =
+            Member { says: outcome.values.clone(), point: start, outcome, path: Vec::new(), scale: Scale::SAME };
+        let mut members = vec![first];
+        let mut next = 0;
+        while next < members.len() && members.len() < MAX_MEMBERS {
+            for (number, scale) in &scales {
+                let from = &members[next];
+                let point = from.point.image(pool, &program.symmetries[*number]);
+                let occurs = program.assumptions.iter().all(|a| point.holds(pool, a.condition));
+                if !occurs || members.iter().any(|member| member.point == point) {
+                    continue;
+                }
+                let outcome = point.outcome(program);
+                let path = from.path.iter().copied().chain([*number]).collect();
+                let scale = from.scale.then(*scale);
+                let says = outcome.values.iter().map(|value| scale.undo(*value)).collect();
+                members.push(Member { point, outcome, says, path, scale });
+            }
+            next += 1;
+        }
+        let mut camps: Vec<Vec<usize>> = Vec::new();
+        for (number, member) in members.iter().enumerate() {
+            let same = |camp: &&mut Vec<usize>| agree(&members[camp[0]].says, &member.says);
+            match camps.iter_mut().find(same) {
+                Some(camp) => camp.push(number),
+                None => camps.push(vec![number]),
+            }
+        }
+        camps.sort_by_key(|camp| std::cmp::Reverse(camp.len()));
+        Self { members, camps }
+    }
+
+    /// Whether all agree.
+    pub(in crate::analyse) fn is_unanimous(&self) -> bool {
+        self.camps.len() == 1
+    }
+
+    /// Whether one camp is larger than any other and at least half of all.
+    pub(in crate::analyse) fn has_majority(&self) -> bool {
+        let first = self.camps[0].len();
+        2 * first >= self.members.len() && self.camps.get(1).is_none_or(|second| first > second.len())
+    }
+
+    /// The nearest member that disagrees with the first, of the largest camp if that is not the first's own.
+    pub(in crate::analyse) fn opponent(&self) -> Option<&Member> {
+        let own = self.camps.iter().position(|camp| camp.contains(&0))?;
+        let other = if own == 0 { self.camps.get(1)? } else { &self.camps[0] };
+        other.iter().min().map(|number| &self.members[*number])
+    }
+
+    /// The cases and lines in a camp, each once.
+    pub(in crate::analyse) fn places(&self, camp: usize) -> Vec<(Option<usize>, Option<usize>)> {
+        let members = self.camps[camp].iter().map(|member| &self.members[*member].outcome);
+        let mut places: Vec<_> = members.map(|outcome| (outcome.row, outcome.line)).collect();
+        places.sort_unstable();
+        places.dedup();
+        places
+    }
+}
+
+pub(in crate::analyse) fn agree(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9)
+}
+
+/// What the first point of an orbit would have to give to agree with one of its
+/// images: the value there, in terms of the first point.
+pub(in crate::analyse) fn expected(study: &mut Study<'_>, member: &Member) -> Option<Vec<ExprId>> {
+    let program = study.program;
+    let mut view = View::PLAIN;
+    for number in &member.path {
+        let symmetry = &program.symmetries[*number];
+        view = study.space.view(&symmetry.levels, &symmetry.numbers, view);
+    }
+    let row = member.outcome.row.map(|row| &program.rows[row]);
+    let line = row.zip(member.outcome.line).map(|(row, line)| &row.lines[line]);
+    let values = line.map_or(&program.default, |line| &line.values);
+    values
+        .iter()
+        .map(|value| {
+            let chosen = chosen(&mut study.space.pool, *value, &member.point);
+            let parts = study.space.parts(chosen, view);
+            let (_, image) = parts.first()?;
+            let image = crate::analyse::words::bare(&study.space, *image);
+            let pool = &mut study.space.pool;
+            Some(match member.scale {
+                Scale::SAME => image,
+                Scale { factor: -1.0, offset } => {
+                    let offset = pool.number(offset);
+                    pool.binary(BinaryOp::Subtract, offset, image)
+                }
+                Scale { factor, offset } => {
+                    let (factor, offset) = (pool.number(factor), pool.number(offset));
+                    let shifted = pool.binary(BinaryOp::Subtract, image, offset);
+                    pool.binary(BinaryOp::Divide, shifted, factor)
+                }
+            })
+        })
+        .collect()
+}
+
+/// A value with its selections decided at a point.
+pub(in crate::analyse) fn chosen(pool: &mut Pool, value: ExprId, point: &Point) -> ExprId {
+    if !pool.expr_facts(value).selects {
+        return value;
+    }
+    match pool.node(value) {
+        Node::Const(_) | Node::Input(_) | Node::Result => value,
+        Node::Unary(op, a) => {
+            let a = chosen(pool, a, point);
+            pool.unary(op, a)
+        }
+        Node::Binary(op, a, b) => {
+            let [a, b] = [a, b].map(|part| chosen(pool, part, point));
+            pool.binary(op, a, b)
+        }
+        Node::Ternary(op, a, b, c) => {
+            let [a, b, c] = [a, b, c].map(|part| chosen(pool, part, point));
+            pool.ternary(op, a, b, c)
+        }
+        Node::Select(condition, a, b) => {
+            let taken = if point.holds(pool, condition) { a } else { b };
+            chosen(pool, taken, point)
+        }
+    }
+}

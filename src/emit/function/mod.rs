@@ -1,0 +1,8 @@
+//! The decision function and the values it returns, in any language.
+
+pub(crate) mod body;
+pub(crate) mod lookup;
+pub(crate) mod outline;
+pub(crate) mod special;
+pub(crate) mod terms;
+pub(crate) mod values;

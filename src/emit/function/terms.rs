@@ -1,0 +1,220 @@
+//! Leaves, conditions and expressions → statements of some language.
+
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
+
+use super::body::Body;
+use crate::emit::language::{Type, bare, call};
+use crate::plan::Leaf;
+use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, UnaryOp};
+
+/// What is in sight at a place of the code.
+#[derive(Default, Clone)]
+pub(in crate::emit) struct Locals {
+    /// Expressions that have a name, or are a part of something that has.
+    pub(in crate::emit) names: HashMap<ExprId, String>,
+    /// Conditions whose outcome is known here.
+    pub(in crate::emit) decided: HashMap<CondId, bool>,
+    /// Arguments whose sine and cosine have a name, as a pair.
+    pub(in crate::emit) pairs: HashMap<ExprId, String>,
+}
+
+impl Body<'_, '_> {
+    pub(in crate::emit) fn leaf(&mut self, leaf: &Leaf) {
+        let program = self.plan.program;
+        let file = self.names.file.clone();
+        let case = match leaf.row.map(|row| &program.rows[row]) {
+            None => {
+                self.text.comment("default: no case matches");
+                self.dialect.global_constant(self.prefix, "DEFAULT")
+            }
+            Some(row) => {
+                let line = leaf.line.map(|line| &row.lines[line]);
+                let (number, place) = match (leaf.line, line) {
+                    (Some(_), Some(line)) if row.lines.len() == 1 => (String::new(), program.line(line.span)),
+                    (Some(number), Some(line)) => (format!(", line {}", number + 1), program.line(line.span)),
+                    _ => (", no line applies, so the default".to_owned(), program.line(row.span)),
+                };
+                let section = if row.section.is_empty() { String::new() } else { format!("section {}; ", row.section) };
+                self.text.comment(&format!("case {}{number}: {} ({section}{file}:{place})", row.id, row.doc));
+                self.dialect.uint(row.id)
+            }
+        };
+        let output = &program.output;
+        let components: Vec<String> = if output.is_integer() {
+            let locals = self.computed_constants(&leaf.values, &[]);
+            leaf.values.iter().map(|value| self.integer(*value, &locals)).collect()
+        } else {
+            let mut locals = self.computed_constants(&leaf.values, &[]);
+            self.declare(&leaf.values, &mut locals);
+            leaf.values.iter().map(|value| self.expr(*value, &locals)).collect()
+        };
+        let components: Vec<String> = components.iter().map(|c| bare(c).to_owned()).collect();
+        let value = self.dialect.value(self.prefix, output, &components);
+        let result = self.dialect.result(self.prefix, &value, &case);
+        self.text.line(format!("return {result};"));
+    }
+
+    pub(in crate::emit) fn temporary(&mut self) -> String {
+        self.temporaries += 1;
+        format!("{}{}t", self.names.temporary, self.temporaries)
+    }
+
+    /// Declares locals for the constants of operations that must not be
+    /// evaluated by the shader's compiler: it would refuse `1.0 / 0.0`, or
+    /// compute it more exactly than the table does.
+    pub(in crate::emit) fn computed_constants(&mut self, exprs: &[ExprId], conditions: &[CondId]) -> Locals {
+        let mut found = Vec::new();
+        let (mut seen_exprs, mut seen_conds) = (BTreeSet::new(), BTreeSet::new());
+        let (mut exprs, mut conditions) = (exprs.to_vec(), conditions.to_vec());
+        let pool = &self.plan.pool;
+        loop {
+            if let Some(condition) = conditions.pop() {
+                if !seen_conds.insert(condition) {
+                    continue;
+                }
+                match pool.cond(condition) {
+                    Cond::Const(_) | Cond::Level(..) => {}
+                    Cond::Compare(_, a, b) => {
+                        if pool.constant(*a).is_some() && pool.constant(*b).is_some() {
+                            found.push(*a);
+                        }
+                        exprs.extend([*a, *b]);
+                    }
+                    Cond::Not(a) => conditions.push(*a),
+                    Cond::And(parts) | Cond::Or(parts) => conditions.extend(parts),
+                    Cond::If(c, a, b) => conditions.extend([*c, *a, *b]),
+                }
+            } else if let Some(expr) = exprs.pop() {
+                if !seen_exprs.insert(expr) {
+                    continue;
+                }
+                let node = pool.node(expr);
+                if let Node::Select(condition, ..) = node {
+                    conditions.push(condition);
+                }
+                let children = children(node);
+                if !pool.folds(node) {
+                    found.extend(children.iter().copied().filter(|child| pool.constant(*child).is_some()));
+                }
+                exprs.extend(children);
+            } else {
+                break;
+            }
+        }
+        let mut locals = Locals::default();
+        for constant in found {
+            if let Entry::Vacant(entry) = locals.names.entry(constant) {
+                let name = self.temporary();
+                let value = self.expr(constant, &Locals::default());
+                self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
+                entry.insert(name);
+            }
+        }
+        locals
+    }
+
+    pub(in crate::emit) fn expr(&self, expr: ExprId, locals: &Locals) -> String {
+        if let Some(name) = locals.names.get(&expr) {
+            return name.clone();
+        }
+        let of = |e: ExprId| self.expr(e, locals);
+        match self.plan.pool.node(expr) {
+            Node::Const(number) => self.dialect.number(number.get()),
+            Node::Input(input) => {
+                let ident = &self.plan.program.inputs[input.index()].ident;
+                self.renamed.get(ident).unwrap_or(ident).clone()
+            }
+            // In the result map of a symmetry.
+            Node::Result => self.result.clone(),
+            Node::Unary(op @ (UnaryOp::PortableSin | UnaryOp::PortableCos), a) => {
+                let pair = call(&self.dialect.global(self.prefix, "sincos"), &[&of(a)]);
+                self.dialect.of_pair(&pair, op == UnaryOp::PortableCos)
+            }
+            Node::Unary(op, a) => self.dialect.unary(op, &of(a)),
+            Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
+            Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),
+            Node::Select(c, a, b) => {
+                if let Some(outcome) = locals.decided.get(&c) {
+                    return of(if *outcome { a } else { b });
+                }
+                let (a, b) = (of(a), of(b));
+                self.dialect.select(bare(&self.condition(c, locals)), bare(&a), bare(&b))
+            }
+        }
+    }
+
+    /// An expression of whole numbers: constants and selections.
+    fn integer(&self, expr: ExprId, locals: &Locals) -> String {
+        match self.plan.pool.node(expr) {
+            Node::Select(c, a, b) => {
+                let condition = self.condition(c, locals);
+                self.dialect.select(bare(&condition), &self.integer(a, locals), &self.integer(b, locals))
+            }
+            Node::Const(number) => self.dialect.uint(number.get() as u32),
+            _ => self.dialect.uint(0),
+        }
+    }
+
+    pub(in crate::emit) fn condition(&self, condition: CondId, locals: &Locals) -> String {
+        let joined = |parts: &[CondId], symbol: &str| {
+            let parts: Vec<String> = parts.iter().map(|part| self.condition(*part, locals)).collect();
+            format!("({})", parts.join(symbol))
+        };
+        match self.plan.pool.cond(condition) {
+            Cond::Const(value) => value.to_string(),
+            Cond::Level(input, levels) => self.level(*input, *levels),
+            Cond::Compare(op, a, b) => {
+                let symbol = match op {
+                    Comparison::Less => "<",
+                    Comparison::LessEqual => "<=",
+                    Comparison::Equal => "==",
+                };
+                format!("({} {symbol} {})", self.expr(*a, locals), self.expr(*b, locals))
+            }
+            Cond::Not(a) => match self.plan.pool.cond(*a) {
+                Cond::Level(input, levels) => {
+                    let count = self.plan.program.levels(*input).map_or(0, |known| known.count());
+                    self.level(*input, LevelSet(LevelSet::all(count).0 & !levels.0))
+                }
+                _ => format!("!({})", bare(&self.condition(*a, locals))),
+            },
+            Cond::And(parts) => joined(parts, " && "),
+            Cond::Or(parts) => joined(parts, " || "),
+            Cond::If(c, a, b) => {
+                let [c, a, b] = [c, a, b].map(|part| self.condition(*part, locals));
+                self.dialect.select(bare(&c), bare(&a), bare(&b))
+            }
+        }
+    }
+
+    fn level(&self, input: InputId, levels: LevelSet) -> String {
+        let declared = &self.plan.program.inputs[input.index()];
+        let name = &declared.ident;
+        let Domain::Discrete(known) = &declared.domain else { return "false".to_owned() };
+        if known.kind == LevelKind::Bool {
+            return if levels.contains(1) { name.clone() } else { format!("!{name}") };
+        }
+        let constant = |level: u8| self.names.level(self.plan.program, input, level);
+        let inside: Vec<u8> = levels.iter().collect();
+        let outside: Vec<u8> = (0..known.count() as u8).filter(|l| !levels.contains(*l)).collect();
+        let all = |levels: &[u8], symbol: &str, joint: &str| {
+            let parts: Vec<String> = levels.iter().map(|l| format!("{name} {symbol} {}", constant(*l))).collect();
+            if let [one] = parts.as_slice() {
+                return format!("({one})");
+            }
+            let parts: Vec<String> = parts.iter().map(|p| format!("({p})")).collect();
+            format!("({})", parts.join(joint))
+        };
+        if inside.len() <= outside.len() { all(&inside, "==", " || ") } else { all(&outside, "!=", " && ") }
+    }
+}
+
+pub(in crate::emit) fn children(node: Node) -> Vec<ExprId> {
+    match node {
+        Node::Const(_) | Node::Input(_) | Node::Result => Vec::new(),
+        Node::Unary(_, a) => vec![a],
+        Node::Binary(_, a, b) | Node::Select(_, a, b) => vec![a, b],
+        Node::Ternary(_, a, b, c) => vec![a, b, c],
+    }
+}

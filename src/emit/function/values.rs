@@ -1,0 +1,313 @@
+//! Where numbers are computed: once, and only on the ways that need them.
+//!
+//! An expression is a graph, generated code is text. What occurs more than once
+//! gets a local. A selection whose sides could fail (divide by zero, take a
+//! root) or cost much becomes a conditional statement, with what only one side
+//! needs inside of it; selections by the same condition share a statement. What
+//! several statements need, and what cannot fail, is computed before them.
+
+use std::collections::{BTreeSet, HashMap, HashSet};
+
+use super::body::Body;
+use super::terms::{Locals, children};
+use crate::emit::language::{Type, bare, call};
+use crate::program::{BinaryOp, Cond, CondId, ExprId, Node, Pool, UnaryOp};
+
+/// Deepest nesting of a printed expression; what is deeper gets a local.
+/// Front ends recurse, and some give up at about seventy levels.
+const MAX_NESTING: usize = 24;
+
+/// Largest side of a selection that is written in place.
+const MAX_PLAIN: u32 = 40;
+
+/// What a block of statements needs whichever way its selections go.
+#[derive(Default)]
+struct Needs {
+    /// The expressions, operands first.
+    order: Vec<ExprId>,
+    /// How often each is used.
+    uses: HashMap<ExprId, usize>,
+}
+
+impl Body<'_, '_> {
+    /// Declares locals so that the values can be printed: for what the table
+    /// names, what occurs more than once, and what nests too deeply.
+    pub(in crate::emit) fn declare(&mut self, values: &[ExprId], locals: &mut Locals) {
+        let mut needs = Needs::default();
+        for value in values {
+            self.visit(*value, locals, &mut needs);
+        }
+        let mut shared: HashSet<ExprId> =
+            needs.uses.iter().filter(|(_, count)| **count > 1).map(|(expr, _)| *expr).collect();
+        let choices: Vec<ExprId> = needs.order.iter().copied().filter(|e| self.is_choice(*e, locals)).collect();
+        if !choices.is_empty() {
+            self.share_with_sides(&choices, &mut needs, &mut shared, locals);
+        }
+        let mut depths: HashMap<ExprId, usize> = HashMap::new();
+        // What waits for a conditional statement comes after it; all else, before.
+        let mut waits: HashSet<ExprId> = HashSet::new();
+        for expr in &needs.order {
+            let operands = self.operands_of(*expr, locals);
+            if self.is_choice(*expr, locals) || operands.iter().any(|operand| waits.contains(operand)) {
+                waits.insert(*expr);
+            }
+        }
+        let (late, early): (Vec<ExprId>, Vec<ExprId>) = needs.order.iter().partition(|expr| waits.contains(expr));
+        for expr in early.into_iter().chain(late) {
+            if locals.names.contains_key(&expr) {
+                continue;
+            }
+            if self.is_choice(expr, locals) {
+                self.choose(expr, &choices, locals);
+                depths.insert(expr, 0);
+                continue;
+            }
+            self.local(expr, values.contains(&expr), shared.contains(&expr), &mut depths, locals);
+        }
+    }
+
+    /// Declares locals so that a condition can be printed, if its operands are large.
+    pub(in crate::emit) fn operands(&mut self, condition: CondId, locals: &mut Locals) {
+        if self.plan.pool.cond_facts(condition).size > MAX_PLAIN {
+            self.declare(&compared(&self.plan.pool, condition), locals);
+        }
+    }
+
+    /// One expression that is needed in any case.
+    fn local(
+        &mut self,
+        expr: ExprId,
+        is_result: bool,
+        shared: bool,
+        depths: &mut HashMap<ExprId, usize>,
+        locals: &mut Locals,
+    ) {
+        let pool = &self.plan.pool;
+        let node = pool.node(expr);
+        if let Node::Unary(op @ (UnaryOp::PortableSin | UnaryOp::PortableCos), argument) = node {
+            let pair = match locals.pairs.get(&argument) {
+                Some(pair) => pair.clone(),
+                None => {
+                    let pair = self.temporary();
+                    let function = self.dialect.global(self.prefix, "sincos");
+                    let value = call(&function, &[&self.expr(argument, locals)]);
+                    self.text.line(self.dialect.local(&Type::Pair, &pair, &value, self.prefix));
+                    locals.pairs.insert(argument, pair.clone());
+                    pair
+                }
+            };
+            locals.names.insert(expr, self.dialect.of_pair(&pair, op == UnaryOp::PortableCos));
+            depths.insert(expr, 0);
+            return;
+        }
+        let operands = children(node);
+        let depth = 1 + operands.iter().filter_map(|c| depths.get(c)).max().copied().unwrap_or(0);
+        depths.insert(expr, depth);
+        let label = pool.label(expr).map(|label| label.replace('.', "_"));
+        let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Result);
+        if trivial || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
+            return;
+        }
+        let name = match label {
+            Some(label) if !self.is_taken(&label, locals) => label,
+            _ => self.temporary(),
+        };
+        let value = self.expr(expr, locals);
+        self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
+        locals.names.insert(expr, name);
+        depths.insert(expr, 0);
+    }
+
+    fn is_taken(&self, name: &str, locals: &Locals) -> bool {
+        self.names.hides(name) || locals.names.values().any(|taken| taken == name)
+    }
+
+    /// A selection as a conditional statement, together with the others by its condition.
+    fn choose(&mut self, expr: ExprId, choices: &[ExprId], locals: &mut Locals) {
+        let Node::Select(condition, ..) = self.plan.pool.node(expr) else { return };
+        let mut group: Vec<(ExprId, String, ExprId, ExprId)> = Vec::new();
+        for other in choices {
+            if let Node::Select(c, yes, no) = self.plan.pool.node(*other)
+                && c == condition
+                && !locals.names.contains_key(other)
+            {
+                let label = self.plan.pool.label(*other).map(|label| label.replace('.', "_"));
+                let name = match label {
+                    Some(label) if !self.is_taken(&label, locals) && !group.iter().any(|(_, n, ..)| *n == label) => {
+                        label
+                    }
+                    _ => self.temporary(),
+                };
+                group.push((*other, name, yes, no));
+            }
+        }
+        for (_, name, ..) in &group {
+            self.text.line(self.dialect.number_later(name));
+        }
+        let test = self.condition(condition, locals);
+        self.text.open(self.dialect.if_open(bare(&test)));
+        for outcome in [true, false] {
+            let mut inside = locals.clone();
+            inside.decided.insert(condition, outcome);
+            let side = |yes: ExprId, no: ExprId| if outcome { yes } else { no };
+            let values: Vec<ExprId> = group.iter().map(|(_, _, yes, no)| side(*yes, *no)).collect();
+            self.declare(&values, &mut inside);
+            for ((_, name, ..), value) in group.iter().zip(values) {
+                let value = self.expr(value, &inside);
+                self.text.line(format!("{name} = {};", bare(&value)));
+            }
+            match outcome {
+                true => self.text.otherwise(),
+                false => self.text.close(),
+            }
+        }
+        locals.names.extend(group.into_iter().map(|(expr, name, ..)| (expr, name)));
+    }
+
+    /// Collects what an expression needs in any case; a choice needs what its condition compares.
+    fn visit(&self, expr: ExprId, locals: &Locals, needs: &mut Needs) {
+        let count = needs.uses.entry(expr).or_insert(0);
+        *count += 1;
+        if *count > 1 || locals.names.contains_key(&expr) {
+            return;
+        }
+        for operand in self.operands_of(expr, locals) {
+            self.visit(operand, locals, needs);
+        }
+        needs.order.push(expr);
+    }
+
+    fn operands_of(&self, expr: ExprId, locals: &Locals) -> Vec<ExprId> {
+        let pool = &self.plan.pool;
+        match pool.node(expr) {
+            Node::Select(c, a, b) => match locals.decided.get(&c) {
+                Some(outcome) => vec![if *outcome { a } else { b }],
+                None if self.is_choice(expr, locals) => compared(pool, c),
+                None => {
+                    let large = pool.cond_facts(c).size > MAX_PLAIN;
+                    [a, b].into_iter().chain(if large { compared(pool, c) } else { Vec::new() }).collect()
+                }
+            },
+            node => children(node),
+        }
+    }
+
+    /// Whether an expression is a selection that becomes a conditional statement.
+    fn is_choice(&self, expr: ExprId, locals: &Locals) -> bool {
+        let pool = &self.plan.pool;
+        match pool.node(expr) {
+            Node::Select(c, a, b) => {
+                !locals.decided.contains_key(&c) && [a, b].iter().any(|side| !self.is_plain(*side))
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether an expression is small and cannot fail.
+    fn is_plain(&self, expr: ExprId) -> bool {
+        let pool = &self.plan.pool;
+        let mut open = vec![expr];
+        pool.expr_facts(expr).size <= MAX_PLAIN
+            && std::iter::from_fn(|| {
+                let expr = open.pop()?;
+                open.extend(children(pool.node(expr)));
+                Some(expr)
+            })
+            .all(|expr| cannot_fail(pool.node(expr)))
+    }
+
+    /// Marks what the sides of choices share with the block, and adds to the
+    /// block what the sides of several choices share, if it cannot fail.
+    fn share_with_sides(&self, choices: &[ExprId], needs: &mut Needs, shared: &mut HashSet<ExprId>, locals: &Locals) {
+        let pool = &self.plan.pool;
+        // By condition: statements are.
+        let mut reached: HashMap<CondId, BTreeSet<ExprId>> = HashMap::new();
+        for choice in choices {
+            if let Node::Select(condition, yes, no) = pool.node(*choice) {
+                let seen = reached.entry(condition).or_default();
+                for side in [yes, no] {
+                    reach(pool, side, locals, seen);
+                }
+            }
+        }
+        let needed: HashSet<ExprId> = needs.order.iter().copied().collect();
+        let mut statements: HashMap<ExprId, usize> = HashMap::new();
+        for expr in reached.values().flatten() {
+            *statements.entry(*expr).or_insert(0) += 1;
+        }
+        let mut safe: HashMap<ExprId, bool> = HashMap::new();
+        let mut several: Vec<ExprId> = Vec::new();
+        for (expr, count) in &statements {
+            if needed.contains(expr) {
+                shared.insert(*expr);
+            } else if *count > 1 && is_safe(pool, *expr, &mut safe) {
+                several.push(*expr);
+            }
+        }
+        // Operands have lower numbers than what is made of them.
+        several.sort_unstable();
+        for expr in several {
+            self.visit(expr, locals, needs);
+            shared.insert(expr);
+        }
+    }
+}
+
+/// Everything below an expression.
+fn reach(pool: &Pool, expr: ExprId, locals: &Locals, seen: &mut BTreeSet<ExprId>) {
+    if locals.names.contains_key(&expr) || !seen.insert(expr) {
+        return;
+    }
+    let node = pool.node(expr);
+    children(node).into_iter().for_each(|operand| reach(pool, operand, locals, seen));
+    if let Node::Select(condition, ..) = node {
+        compared(pool, condition).into_iter().for_each(|operand| reach(pool, operand, locals, seen));
+    }
+}
+
+/// Whether nothing in an expression can fail or is selected.
+fn is_safe(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, bool>) -> bool {
+    if let Some(known) = known.get(&expr) {
+        return *known;
+    }
+    let node = pool.node(expr);
+    let portable = matches!(node, Node::Unary(UnaryOp::PortableSin | UnaryOp::PortableCos, _));
+    let safe = !matches!(node, Node::Select(..))
+        && (portable || cannot_fail(node))
+        && children(node).into_iter().all(|operand| is_safe(pool, operand, known));
+    known.insert(expr, safe);
+    safe
+}
+
+/// Whether an operation is cheap and has a finite result for all finite operands that are not huge.
+fn cannot_fail(node: Node) -> bool {
+    match node {
+        Node::Const(_) | Node::Input(_) | Node::Result | Node::Ternary(..) | Node::Select(..) => true,
+        Node::Unary(op, _) => matches!(
+            op,
+            UnaryOp::Negate
+                | UnaryOp::Abs
+                | UnaryOp::Ceil
+                | UnaryOp::Degrees
+                | UnaryOp::Floor
+                | UnaryOp::Fract
+                | UnaryOp::Radians
+                | UnaryOp::Round
+                | UnaryOp::Saturate
+                | UnaryOp::Sign
+                | UnaryOp::Trunc
+        ),
+        Node::Binary(op, ..) => !matches!(op, BinaryOp::Divide | BinaryOp::Remainder | BinaryOp::Atan2 | BinaryOp::Pow),
+    }
+}
+
+/// The numbers that a condition compares.
+fn compared(pool: &Pool, condition: CondId) -> Vec<ExprId> {
+    match pool.cond(condition) {
+        Cond::Const(_) | Cond::Level(..) => Vec::new(),
+        Cond::Compare(_, a, b) => vec![*a, *b],
+        Cond::Not(a) => compared(pool, *a),
+        Cond::And(parts) | Cond::Or(parts) => parts.iter().flat_map(|part| compared(pool, *part)).collect(),
+        Cond::If(c, a, b) => [c, a, b].into_iter().flat_map(|part| compared(pool, *part)).collect(),
+    }
+}

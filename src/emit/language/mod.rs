@@ -1,0 +1,232 @@
+//! What differs between the languages that Umbrage prints itself.
+
+pub(crate) mod glsl;
+pub(crate) mod rust;
+pub(crate) mod wgsl;
+
+use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
+
+/// A type in generated code.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Type {
+    Float,
+    Uint,
+    Bool,
+    /// A sine and a cosine.
+    Pair,
+    /// The table's output.
+    Value(Output),
+    /// The output together with the case taken.
+    Result,
+    /// What the host's fetch functions are given.
+    Site,
+}
+
+/// Names that a table contributes to generated code.
+#[derive(Debug, Clone)]
+pub(super) struct Prefix {
+    /// `rsmss`
+    pub(super) lower: String,
+    /// `RSMSS`
+    pub(super) upper: String,
+    /// `Rsmss`
+    pub(super) camel: String,
+}
+
+impl Prefix {
+    pub(super) fn new(name: &str) -> Self {
+        let capital = |word: &str| {
+            let mut chars = word.chars();
+            chars.next().map(|first| first.to_ascii_uppercase().to_string() + chars.as_str()).unwrap_or_default()
+        };
+        Self { lower: name.to_owned(), upper: name.to_ascii_uppercase(), camel: name.split('_').map(capital).collect() }
+    }
+
+    /// The structure of value and case.
+    pub(super) fn result(&self) -> String {
+        format!("{}Result", self.camel)
+    }
+
+    /// The structure of a value that consists of several numbers with names.
+    pub(super) fn value(&self) -> String {
+        format!("{}Value", self.camel)
+    }
+
+    /// The structure that the host defines.
+    pub(super) fn site(&self) -> String {
+        format!("{}Site", self.camel)
+    }
+}
+
+/// How a language says things. What is not overridden is the way of the C family.
+pub(super) trait Dialect {
+    /// The name of a type.
+    fn ty(&self, ty: &Type, prefix: &Prefix) -> String;
+    /// The first lines of a file, after the comment.
+    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String;
+    /// Functions that the language lacks, for a table that needs remainders.
+    fn remainder(&self, _: &Prefix) -> String {
+        String::new()
+    }
+    /// A function for sine and cosine from additions, products and a rounding.
+    fn sincos(&self, prefix: &Prefix) -> String {
+        let name = self.global(prefix, "sincos");
+        let round = self.unary(UnaryOp::Round, "(x * 0.63661975)");
+        let lines = [
+            ("quarters", round.as_str()),
+            ("r", "((x - quarters * 1.5703125) - quarters * 0.0004837513) - quarters * 7.54979e-8"),
+            ("z", "r * r"),
+            ("s", "r + r * z * (-0.16666655 + z * (0.008332161 - z * 0.00019515296))"),
+            ("c", "(1.0 - 0.5 * z) + z * z * (0.041666646 + z * (-0.0013887316 + z * 0.000024433157))"),
+            ("halves", &self.unary(UnaryOp::Floor, "(quarters * 0.5)")),
+            ("odd", "quarters - 2.0 * halves"),
+            ("even", "1.0 - odd"),
+            ("next", &self.unary(UnaryOp::Floor, "(quarters * 0.5 + 0.5)")),
+            ("sign_s", &format!("1.0 - 2.0 * (halves - 2.0 * {})", self.unary(UnaryOp::Floor, "(halves * 0.5)"))),
+            ("sign_c", &format!("1.0 - 2.0 * (next - 2.0 * {})", self.unary(UnaryOp::Floor, "(next * 0.5)"))),
+        ];
+        let x = [("x".to_owned(), Type::Float)];
+        let mut out = format!(
+            "// Sine and cosine, as accurate on every device; the language promises too little for its own.\n{}\n",
+            self.function(&name, &x, &Type::Pair, prefix)
+        );
+        for (name, value) in lines {
+            out += &format!("    {}\n", self.local(&Type::Float, name, value, prefix));
+        }
+        out + &format!(
+            "    return {};\n}}",
+            self.make_pair("(s * even + c * odd) * sign_s", "(c * even + s * odd) * sign_c")
+        )
+    }
+    /// A pair of numbers.
+    fn make_pair(&self, first: &str, second: &str) -> String {
+        format!("vec2({first}, {second})")
+    }
+    /// One of a pair of numbers.
+    fn of_pair(&self, pair: &str, second: bool) -> String {
+        format!("{pair}.{}", if second { "y" } else { "x" })
+    }
+    /// A constant of the module.
+    fn constant(&self, name: &str, value: u32) -> String;
+    /// The structure of value and case.
+    fn result_struct(&self, prefix: &Prefix, output: &Output) -> String;
+    /// The first line of a function.
+    fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String;
+    /// Declares a local constant.
+    fn local(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String;
+    /// Declares a number that is assigned later.
+    fn number_later(&self, name: &str) -> String {
+        format!("float {name};")
+    }
+    /// Declares a local that may be assigned again.
+    fn variable(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String {
+        self.local(ty, name, value, prefix)
+    }
+    /// The first line of a conditional.
+    fn if_open(&self, condition: &str) -> String {
+        format!("if ({condition}) {{")
+    }
+    /// The first line of a choice by number.
+    fn switch_open(&self, selector: &str) -> String {
+        format!("switch ({selector}) {{")
+    }
+    /// The first line of a way of the choice.
+    fn case_open(&self, values: &[u32]) -> String;
+    /// The way of all other numbers, which leads behind the choice.
+    fn case_default(&self) -> &'static str;
+    /// A real number.
+    fn number(&self, value: f64) -> String {
+        decimal(value)
+    }
+    /// A whole number.
+    fn uint(&self, value: u32) -> String {
+        format!("{value}u")
+    }
+    /// One of two values.
+    fn select(&self, condition: &str, then: &str, other: &str) -> String;
+    /// 0 or 1.
+    fn bool_to_uint(&self, condition: &str) -> String;
+    /// The number whose bits a word holds.
+    fn float_from_bits(&self, word: &str) -> String;
+    /// Calls the host for a fetched input.
+    fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
+        format!("{}_fetch_{ident}(site)", prefix.lower)
+    }
+    /// The argument that passes the site on.
+    fn site_argument(&self) -> &'static str {
+        "site"
+    }
+    /// An operation on one number.
+    fn unary(&self, op: UnaryOp, a: &str) -> String;
+    /// An operation on two numbers.
+    fn binary(&self, prefix: &Prefix, op: BinaryOp, a: &str, b: &str) -> String;
+    /// An operation on three numbers.
+    fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String;
+    /// The structure of a value that consists of several numbers with names.
+    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String;
+    /// The output made of its components.
+    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String;
+    /// Value and case together.
+    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
+        format!("{}({value}, {case})", prefix.result())
+    }
+    /// The function of the host that reads a word of the lookup, where it is one.
+    fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
+        format!("{}_lookup({word})", prefix.lower)
+    }
+    /// What makes the host's reader of the lookup visible where the module cannot see it by itself.
+    fn lookup_import(&self, _: &Prefix) -> String {
+        String::new()
+    }
+    /// Names of the entry points in this language: with f32 levels, with a key, and both with the case.
+    fn entry_names(&self, prefix: &Prefix) -> [String; 4] {
+        let p = &prefix.lower;
+        [p.clone(), format!("{p}_key"), format!("{p}_case"), format!("{p}_key_case")]
+    }
+    /// A name of the module, such as a helper or a constant.
+    fn global(&self, prefix: &Prefix, name: &str) -> String {
+        format!("{}_{name}", prefix.lower)
+    }
+    /// A constant of the module.
+    fn global_constant(&self, prefix: &Prefix, name: &str) -> String {
+        format!("{}_{name}", prefix.upper)
+    }
+}
+
+/// An infix operation, always in parentheses: some front ends refuse what
+/// others accept without.
+pub(super) fn infix(op: BinaryOp, a: &str, b: &str) -> Option<String> {
+    let symbol = match op {
+        BinaryOp::Add => "+",
+        BinaryOp::Subtract => "-",
+        BinaryOp::Multiply => "*",
+        BinaryOp::Divide => "/",
+        _ => return None,
+    };
+    Some(format!("({a} {symbol} {b})"))
+}
+
+/// A call; arguments need no parentheses of their own.
+pub(super) fn call(name: &str, arguments: &[&str]) -> String {
+    let arguments: Vec<&str> = arguments.iter().map(|argument| bare(argument)).collect();
+    format!("{name}({})", arguments.join(", "))
+}
+
+/// The shortest decimal that reads back as the same `f32`.
+pub(super) fn decimal(value: f64) -> String {
+    let text = format!("{:?}", value as f32);
+    if text.starts_with('-') { format!("({text})") } else { text }
+}
+
+/// Removes the parentheses around a whole expression.
+pub(super) fn bare(text: &str) -> &str {
+    let Some(inner) = text.strip_prefix('(').and_then(|t| t.strip_suffix(')')) else { return text };
+    let mut depth = 0_i32;
+    for c in inner.chars() {
+        depth += i32::from(c == '(') - i32::from(c == ')');
+        if depth < 0 {
+            return text;
+        }
+    }
+    inner
+}

@@ -1,0 +1,97 @@
+//! Points at which a function is meant to be used: its examples, points around
+//! them, and points of its domain at large.
+//!
+//! Ranges are generous, and most of a box may lie outside of the conditions
+//! that a function states, so points are drawn until they hold.
+
+use super::random::Random;
+use crate::eval::Interpreter;
+use crate::program::{Domain, Program, Value};
+
+/// A point: one value per input.
+type Point = Vec<Option<Value>>;
+
+/// Most tries for one point.
+const TRIES: usize = 50;
+
+/// Where a range has no end that one would think of, points are drawn from this much of it.
+const USUAL: f64 = 4.0;
+
+/// Draws points; the same ones every time.
+pub struct Samples<'p> {
+    program: &'p Program,
+    interpreter: Interpreter<'p, f64>,
+    random: Random,
+}
+
+impl<'p> Samples<'p> {
+    /// Points of a program.
+    pub fn new(program: &'p Program) -> Self {
+        Self { program, interpreter: Interpreter::new(program), random: Random::new(0x9e37_79b9_7f4a_7c15) }
+    }
+
+    /// The examples and further points, up to `count` of these; fewer if the conditions are hard to meet.
+    pub fn take(&mut self, count: usize) -> Vec<Point> {
+        let examples: Vec<Point> = self.program.examples.iter().map(|example| single(&example.inputs)).collect();
+        let mut points: Vec<Point> = examples.iter().filter(|point| self.is_meant(point)).cloned().collect();
+        for number in 0..count {
+            for _ in 0..TRIES {
+                let point = match examples.get(number / 2 % examples.len().max(1)) {
+                    Some(example) if number % 2 == 0 => self.near(example),
+                    _ => self.anywhere(),
+                };
+                let point = single(&point);
+                if self.is_meant(&point) {
+                    points.push(point);
+                    break;
+                }
+            }
+        }
+        points
+    }
+
+    /// Whether the conditions of the program hold at a point.
+    pub fn is_meant(&mut self, point: &Point) -> bool {
+        let program = self.program;
+        self.interpreter.place(point).is_ok()
+            && program.assumptions.iter().all(|a| self.interpreter.holds(a.condition) == Ok(true))
+    }
+
+    fn near(&mut self, example: &Point) -> Point {
+        let inputs = self.program.inputs.iter().zip(example);
+        inputs
+            .map(|(input, value)| match (&input.domain, value) {
+                (Domain::Continuous { lo, hi, .. }, Some(Value::Number(number))) => {
+                    // Now and then the very same number: what is special about an example stays so.
+                    let step = if self.random.unit() < 0.25 { 0.0 } else { self.random.unit() - 0.5 };
+                    Some(Value::Number((number + step * number.abs().max(0.1)).clamp(*lo, *hi)))
+                }
+                _ => *value,
+            })
+            .collect()
+    }
+
+    fn anywhere(&mut self) -> Point {
+        let inputs = self.program.inputs.iter();
+        inputs
+            .map(|input| {
+                Some(match &input.domain {
+                    Domain::Discrete(levels) => Value::Level((self.random.unit() * levels.count() as f64) as u8),
+                    Domain::Continuous { lo, hi, .. } => {
+                        let (lo, hi) = (lo.max(-USUAL.max(-hi)), hi.min(USUAL.max(*lo)));
+                        Value::Number(lo + (hi - lo) * self.random.unit())
+                    }
+                })
+            })
+            .collect()
+    }
+}
+
+/// A point as every executor gets it: rounded to `f32`.
+fn single(point: &[Option<Value>]) -> Point {
+    let round = |value: &Option<Value>| match value {
+        Some(Value::Number(number)) => Some(Value::Number(f64::from(*number as f32))),
+        other => *other,
+    };
+    point.iter().map(round).collect()
+}

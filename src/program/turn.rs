@@ -1,0 +1,211 @@
+//! Several symmetries applied one after the other.
+
+use std::sync::Arc;
+
+use super::claims::decide;
+use super::symbolic::{Machine, View};
+use super::{ExprId, InputId, InputSet, LevelTerm, Node, Pool, Program, Symmetry};
+
+/// Whether a symmetry maps inputs in ways that can be applied one after the
+/// other: levels of a state by the state alone, fetched inputs to fetched
+/// inputs with their levels renamed, numbers without selections.
+pub(crate) fn is_usable(program: &Program, symmetry: &Symmetry) -> bool {
+    let fetched = |input: InputId| program.fetched.contains(input);
+    let levels = symmetry.levels.iter().all(|(input, image)| match fetched(*input) {
+        true => renamed(image).is_some_and(|(source, _)| fetched(source)),
+        false => true,
+    });
+    let numbers = symmetry.numbers.iter().all(|(input, image)| match fetched(*input) {
+        true => matches!(program.pool.node(*image), Node::Input(source) if fetched(source)),
+        false => {
+            let facts = program.pool.expr_facts(*image);
+            !facts.selects && facts.inputs.and(program.fetched).is_empty()
+        }
+    });
+    let result = symmetry.result.is_none_or(|result| {
+        let facts = program.pool.expr_facts(result);
+        !facts.selects && facts.inputs.is_empty()
+    });
+    levels && numbers && result && image_of_state(program, symmetry, 0).is_some()
+}
+
+/// The state that a symmetry turns a state into; `None` if that depends on other inputs.
+pub(crate) fn image_of_state(program: &Program, symmetry: &Symmetry, state: usize) -> Option<usize> {
+    let mut levels = vec![0; program.inputs.len()];
+    program.states.write(state, &mut levels);
+    let mut image = levels.clone();
+    for (input, term) in &symmetry.levels {
+        if !program.fetched.contains(*input) {
+            image[input.index()] = level(program, term, &levels)?;
+        }
+    }
+    Some(program.states.index(|input| image[input.index()]))
+}
+
+fn level(program: &Program, term: &LevelTerm, levels: &[u8]) -> Option<u8> {
+    match term {
+        LevelTerm::Const(level) => Some(*level),
+        LevelTerm::Input(input) if program.fetched.contains(*input) => None,
+        LevelTerm::Input(input) => Some(levels[input.index()]),
+        LevelTerm::If(condition, then, other) => match decide(program, &program.pool, *condition, levels)? {
+            true => level(program, then, levels),
+            false => level(program, other, levels),
+        },
+        LevelTerm::Map(inner, renaming) => renaming.get(usize::from(level(program, inner, levels)?)).copied(),
+    }
+}
+
+/// The one input that a level is made of, and what becomes of each of its
+/// levels; `None` for the renaming if nothing does.
+pub(crate) fn renamed(term: &LevelTerm) -> Option<(InputId, Option<Vec<u8>>)> {
+    match term {
+        LevelTerm::Input(input) => Some((*input, None)),
+        LevelTerm::Map(inner, renaming) => {
+            let (input, before) = renamed(inner)?;
+            Some((
+                input,
+                Some(match before {
+                    None => renaming.to_vec(),
+                    Some(before) => {
+                        before.iter().map(|level| renaming.get(usize::from(*level)).copied()).collect::<Option<_>>()?
+                    }
+                }),
+            ))
+        }
+        LevelTerm::Const(_) | LevelTerm::If(..) => None,
+    }
+}
+
+/// What a word of symmetries makes of the inputs of one state, as one symmetry.
+#[derive(Debug, Clone)]
+pub(crate) struct Turn {
+    /// The images of the inputs.
+    pub(crate) symmetry: Symmetry,
+    /// How the result is turned back, the last symmetry first.
+    results: Vec<ExprId>,
+    identity: bool,
+}
+
+impl Turn {
+    /// The symmetries that `word` has bits for, in order, in one state; `None` if one does not apply in this way.
+    pub(crate) fn new(
+        program: &Program,
+        pool: &mut Pool,
+        symmetries: &[usize],
+        word: usize,
+        state: usize,
+    ) -> Option<Self> {
+        let mut turn = Self::of_word(program, pool, symmetries, word)?;
+        let mut at = state;
+        for (_, index) in symmetries.iter().enumerate().filter(|(bit, _)| word >> bit & 1 == 1) {
+            at = image_of_state(program, &program.symmetries[*index], at)?;
+        }
+        let mut levels = vec![0; program.inputs.len()];
+        program.states.write(at, &mut levels);
+        for (input, _) in program.states.digits() {
+            turn.symmetry.levels.push((*input, LevelTerm::Const(levels[input.index()])));
+        }
+        Some(turn)
+    }
+
+    /// The same without the levels of a state: what becomes of numbers and of fetched inputs.
+    pub(crate) fn of_word(program: &Program, pool: &mut Pool, symmetries: &[usize], word: usize) -> Option<Self> {
+        let first = &program.symmetries[*symmetries.first()?];
+        let mut turn = Self {
+            symmetry: Symmetry {
+                name: String::new(),
+                doc: String::new(),
+                levels: Vec::new(),
+                numbers: Vec::new(),
+                result: None,
+                span: first.span,
+            },
+            results: Vec::new(),
+            identity: word == 0,
+        };
+        for (_, index) in symmetries.iter().enumerate().filter(|(bit, _)| word >> bit & 1 == 1) {
+            let next = &program.symmetries[*index];
+            let levels = next.levels.iter().filter(|(input, _)| program.fetched.contains(*input));
+            let levels: Vec<(InputId, LevelTerm)> =
+                levels.map(|(input, image)| Some((*input, turn.level(image)?))).collect::<Option<_>>()?;
+            let numbers: Vec<(InputId, ExprId)> =
+                next.numbers.iter().map(|(input, image)| (*input, turn.number(pool, *image))).collect();
+            for (input, image) in levels {
+                turn.symmetry.levels.retain(|(known, _)| *known != input);
+                turn.symmetry.levels.push((input, image));
+            }
+            for (input, image) in numbers {
+                turn.symmetry.numbers.retain(|(known, _)| *known != input);
+                turn.symmetry.numbers.push((input, image));
+            }
+            turn.results.splice(0..0, next.result);
+        }
+        Some(turn)
+    }
+
+    /// The image of an image.
+    fn level(&self, term: &LevelTerm) -> Option<LevelTerm> {
+        match term {
+            LevelTerm::Input(input) => {
+                let known = self.symmetry.levels.iter().find(|(known, _)| known == input);
+                Some(known.map_or_else(|| term.clone(), |(_, image)| image.clone()))
+            }
+            LevelTerm::Map(inner, renaming) => Some(LevelTerm::Map(Arc::new(self.level(inner)?), renaming.clone())),
+            LevelTerm::Const(_) | LevelTerm::If(..) => None,
+        }
+    }
+
+    fn number(&self, pool: &mut Pool, expr: ExprId) -> ExprId {
+        match pool.node(expr) {
+            Node::Const(_) | Node::Result | Node::Select(..) => expr,
+            Node::Input(input) => {
+                let known = self.symmetry.numbers.iter().find(|(known, _)| *known == input);
+                known.map_or(expr, |(_, image)| *image)
+            }
+            Node::Unary(op, a) => {
+                let a = self.number(pool, a);
+                pool.unary(op, a)
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.number(pool, a), self.number(pool, b));
+                pool.binary(op, a, b)
+            }
+            Node::Ternary(op, a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|part| self.number(pool, part));
+                pool.ternary(op, a, b, c)
+            }
+        }
+    }
+
+    /// Whether no symmetry is applied.
+    pub(crate) fn is_identity(&self) -> bool {
+        self.identity
+    }
+
+    /// What the inputs are seen as.
+    pub(crate) fn view(&self) -> View<'_> {
+        View { symmetry: Some(&self.symmetry), result: None }
+    }
+
+    /// Values at the turned inputs, turned back.
+    pub(crate) fn back(&self, machine: &mut Machine<'_>, values: &[ExprId]) -> Vec<ExprId> {
+        let turned = values.iter().map(|value| {
+            let value = machine.resolve(*value, self.view());
+            self.results
+                .iter()
+                .fold(value, |value, map| machine.resolve(*map, View { symmetry: None, result: Some(value) }))
+        });
+        turned.collect()
+    }
+
+    /// The fetched inputs that stand behind one.
+    pub(crate) fn sources(&self, pool: &Pool, input: InputId) -> InputSet {
+        if let Some((_, image)) = self.symmetry.levels.iter().find(|(known, _)| *known == input) {
+            return renamed(image).map_or(InputSet::default(), |(source, _)| InputSet::one(source));
+        }
+        match self.symmetry.numbers.iter().find(|(known, _)| *known == input) {
+            Some((_, image)) => pool.expr_facts(*image).inputs,
+            None => InputSet::one(input),
+        }
+    }
+}

@@ -1,0 +1,617 @@
+//! The gate that every plan passes: plan ≡ program, state by state, symbolically.
+//!
+//! For each state of the discrete inputs the program is run symbolically.
+//! Whatever the state does not decide (the level of a fetched input, a
+//! comparison of numbers) is asked of an `Oracle`, which remembers its
+//! answers; the plan then runs on the same answers. Every sequence of answers
+//! is gone through, so all paths are covered. On each path
+//!
+//! - both must take the same row, and the same line of it;
+//! - the plan fetches an input at most once, uses none that it has not
+//!   fetched, and fetches none that the program does not;
+//! - the results must be the same expression (then they agree in every bit) or
+//!   have the same normal form over the reals (then the difference in `f32` is
+//!   bounded).
+//!
+//! The prover shares no code with the planner. It treats comparisons that look
+//! different as independent, which can refuse a right plan but never accept a
+//! wrong one.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use super::{real, rounding, route};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::plan::{Leaf, Plan, Step, StepId};
+use crate::program::claims::{Candidates, Places};
+use crate::program::normal::Normaliser;
+use crate::program::print::Printer;
+use crate::program::reachable;
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
+
+/// Most paths of one state, and of all states together beyond the first of each.
+const MAX_PATHS_OF_STATE: usize = 1 << 16;
+const MAX_PATHS: usize = 1 << 18;
+/// Most questions answered in one state, on all of its paths.
+const MAX_ANSWERS: usize = 1 << 22;
+
+/// What a proof found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// Discrete states gone through.
+    pub states: usize,
+    /// Whether these are only the states in which the assumptions can hold.
+    pub assumed: bool,
+    /// Paths gone through: states, times the answers of fetches and comparisons.
+    pub paths: usize,
+    /// Paths on which the result is the same expression.
+    pub identical: usize,
+    /// Largest difference in `f32` on the other paths; `None` if no bound is known.
+    pub rounding: Option<f64>,
+}
+
+impl Proof {
+    /// What the proofs of two programs found together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            states: self.states + other.states,
+            assumed: self.assumed || other.assumed,
+            paths: self.paths + other.paths,
+            identical: self.identical + other.identical,
+            rounding: self.rounding.zip(other.rounding).map(|(a, b)| a.max(b)),
+        }
+    }
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = if self.assumed { "states in which the assumptions can hold" } else { "states" };
+        write!(f, "equal to the table on {} {kind}, {} paths; ", self.states, self.paths)?;
+        if self.identical == self.paths {
+            return write!(f, "the same operations on each");
+        }
+        write!(f, "the same operations on {}, on the others equal over the reals", self.identical)?;
+        match self.rounding {
+            Some(bound) => write!(f, " and at most {bound:.1e} apart in f32"),
+            None => write!(f, " with no bound on the f32 difference"),
+        }
+    }
+}
+
+/// Why a plan is not proved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refusal {
+    /// It is not equal to its program.
+    Different(Box<Counterexample>),
+    /// There are too many paths to go through.
+    TooLong {
+        /// Which shape of plan.
+        shape: &'static str,
+        /// A state with many paths, in table notation.
+        state: Vec<String>,
+    },
+}
+
+impl Refusal {
+    /// The refusal as a diagnostic.
+    pub fn into_failure(self, program: &Program) -> Failure {
+        match self {
+            Refusal::Different(counterexample) => counterexample.into_failure(program),
+            Refusal::TooLong { shape, state } => {
+                let message = format!("the plan `{shape}` of `{}` has too many paths to be proved", program.name);
+                let diagnostic = Diagnostic::error(codes::PROOF_TOO_LONG, message)
+                    .help(format!(
+                        "a state may have {MAX_PATHS_OF_STATE} paths, and all states {MAX_PATHS} more than one each, fewer where they are long; each comparison of numbers and each fetch multiplies them"
+                    ))
+                    .help(format!("the limit was met in the state {}", state.join(", ")))
+                    .help("split cases with many comparisons or choices, or make a comparison an input of the table");
+                Failure::new(program.source.clone(), diagnostic)
+            }
+        }
+    }
+}
+
+/// Where a plan and its program differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counterexample {
+    /// Which shape of plan.
+    pub shape: &'static str,
+    /// The state, the levels of fetched inputs, and the outcome of comparisons, in table notation.
+    pub state: Vec<String>,
+    /// What differs.
+    pub reason: String,
+    /// The row that the program takes, if any.
+    pub row: Option<usize>,
+}
+
+impl Counterexample {
+    /// The counterexample as a diagnostic at the row concerned.
+    pub fn into_failure(self, program: &Program) -> Failure {
+        let span = self.row.map_or(program.hit_policy_span, |row| program.rows[row].span);
+        let diagnostic =
+            Diagnostic::error(codes::NOT_PROVED, format!("the plan `{}` is not equal to the table", self.shape))
+                .at(span, self.reason)
+                .help(format!("in the state {}", self.state.join(", ")))
+                .help("nothing was emitted; please report this: a plan must never differ");
+        Failure::new(program.source.clone(), diagnostic)
+    }
+}
+
+/// Proves a plan.
+///
+/// # Errors
+/// With the first difference found.
+pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
+    if matches!(plan.step(plan.behind_fetches()), Step::Coefficients { .. } | Step::Orbit { .. }) {
+        return real::prove(plan);
+    }
+    let program = plan.program;
+    let states: Vec<usize> = match plan.assumed {
+        true => reachable(program),
+        false => (0..program.states.count()).collect(),
+    };
+    let mut prover = Prover {
+        plan,
+        pool: plan.pool.clone(),
+        normaliser: Normaliser::default(),
+        oracle: Oracle::new(program),
+        candidates: Candidates::new(program),
+        absent: InputSet::default(),
+        starts: route::starts(plan, &states),
+        identical: 0,
+        paths: 0,
+        rounding: Some(0.0),
+    };
+    for (gone, state) in states.iter().enumerate() {
+        program.states.write(*state, &mut prover.oracle.levels);
+        prover.oracle.restart();
+        let before = prover.paths;
+        loop {
+            prover.path(*state).map_err(Refusal::Different)?;
+            if !prover.oracle.advance() {
+                break;
+            }
+            let paths = prover.paths - before >= MAX_PATHS_OF_STATE || prover.paths - gone > MAX_PATHS;
+            if paths || prover.oracle.answered > MAX_ANSWERS {
+                prover.oracle.restart();
+                return Err(Refusal::TooLong { shape: plan.shape.name(), state: prover.describe() });
+            }
+        }
+    }
+    Ok(Proof {
+        states: states.len(),
+        assumed: plan.assumed,
+        paths: prover.paths,
+        identical: prover.identical,
+        rounding: prover.rounding,
+    })
+}
+
+/// Something that a state leaves open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Question {
+    Level(InputId),
+    Compare(Comparison, ExprId, ExprId),
+}
+
+/// Answers questions, the same one always the same way, until told to advance.
+#[derive(Default)]
+struct Oracle {
+    /// Level by input; fetched inputs are set when first asked.
+    levels: Vec<u8>,
+    /// Questions asked so far, with the current answer and the number of answers.
+    choices: Vec<(Question, u8, u8)>,
+    /// The place of each question among them.
+    asked: HashMap<Question, usize>,
+    /// Questions answered in this state so far.
+    answered: usize,
+}
+
+impl Oracle {
+    fn new(program: &Program) -> Self {
+        Self { levels: vec![0; program.inputs.len()], ..Self::default() }
+    }
+
+    fn answer(&mut self, question: Question, count: u8) -> u8 {
+        self.answered += 1;
+        if let Some(answer) = self.known(question) {
+            return answer;
+        }
+        self.asked.insert(question, self.choices.len());
+        self.choices.push((question, 0, count));
+        0
+    }
+
+    /// What was answered on this path, if the question was asked.
+    fn known(&self, question: Question) -> Option<u8> {
+        self.asked.get(&question).map(|place| self.choices[*place].1)
+    }
+
+    /// Forgets all paths.
+    fn restart(&mut self) {
+        self.choices.clear();
+        self.asked.clear();
+        self.answered = 0;
+    }
+
+    /// Moves on to the next sequence of answers; false if that was the last.
+    fn advance(&mut self) -> bool {
+        while let Some((question, answer, count)) = self.choices.last_mut() {
+            *answer += 1;
+            if *answer < *count {
+                return true;
+            }
+            self.asked.remove(question);
+            self.choices.pop();
+        }
+        false
+    }
+}
+
+struct Prover<'a, 'p> {
+    plan: &'a Plan<'p>,
+    /// The plan's terms, and those that resolving selections makes of them.
+    pool: Pool,
+    normaliser: Normaliser,
+    oracle: Oracle,
+    candidates: Candidates,
+    /// Inputs that the plan declares but has not fetched on this path: code finds their first level
+    /// or least value there. Empty while the program runs.
+    absent: InputSet,
+    /// Where the paths of each state begin.
+    starts: Vec<StepId>,
+    identical: usize,
+    paths: usize,
+    rounding: Option<f64>,
+}
+
+/// A run of program or plan on one path. Selections in the values are not decided yet.
+struct Run {
+    row: Option<usize>,
+    line: Option<usize>,
+    values: Vec<ExprId>,
+    fetched: InputSet,
+    /// Inputs that are declared and not fetched.
+    absent: InputSet,
+}
+
+impl<'p> Prover<'_, 'p> {
+    fn path(&mut self, state: usize) -> Result<(), Box<Counterexample>> {
+        let want = self.run_program(state);
+        // The plan may ask further questions; they then become part of the path.
+        let got = self.run_plan(state);
+        self.absent = InputSet::default();
+        let got = got.map_err(|reason| self.differs(reason, &want))?;
+        self.paths += 1;
+        if (want.row, want.line) != (got.row, got.line) {
+            let name = |run: &Run| self.name(run);
+            let reason = format!("the table takes {}, the plan {}", name(&want), name(&got));
+            return Err(self.differs(reason, &want));
+        }
+        // Values that are the same before selections are decided need no decisions, unless these fetch.
+        let fetches = |value: &ExprId| !self.pool.expr_facts(*value).inputs.and(self.plan.program.fetched).is_empty();
+        if want.values == got.values && got.fetched.is_empty() && !want.values.iter().any(fetches) {
+            self.identical += 1;
+            return Ok(());
+        }
+        let mut fetched = want.fetched;
+        let values = self.results(&want.values, &mut fetched);
+        let want = Run { values, fetched, ..want };
+        self.absent = got.absent;
+        let got = Run { values: self.results(&got.values, &mut InputSet::default()), ..got };
+        self.absent = InputSet::default();
+        if let Some(input) = got.fetched.minus(want.fetched).iter().next() {
+            let input = &self.plan.program.inputs[input.index()].name;
+            return Err(self.differs(format!("the plan fetches `{input}`, which the table does not need here"), &want));
+        }
+        let mut identical = true;
+        for (a, b) in want.values.iter().zip(&got.values) {
+            if a == b || self.decided(*a) == self.decided(*b) {
+                continue;
+            }
+            // Selections that only one side has make further paths.
+            let (a, b) = (&self.resolve(*a, &mut InputSet::default()), &self.resolve(*b, &mut InputSet::default()));
+            if a == b {
+                continue;
+            }
+            identical = false;
+            let equal = match (self.normaliser.normal(&self.pool, *a), self.normaliser.normal(&self.pool, *b)) {
+                (Some(a), Some(b)) => a == b,
+                _ => false,
+            };
+            if !equal {
+                let printer = Printer { pool: &self.pool, inputs: &self.plan.program.inputs };
+                let reason = format!("the table gives {}, the plan {}", printer.expr(*a), printer.expr(*b));
+                return Err(self.differs(reason, &want));
+            }
+            let program = self.plan.program;
+            let bound = |expr| rounding::error(program, &self.pool, expr);
+            self.rounding = match (self.rounding, bound(*a), bound(*b)) {
+                (Some(worst), Some(a), Some(b)) => Some(worst.max(a + b)),
+                _ => None,
+            };
+        }
+        self.identical += usize::from(identical);
+        Ok(())
+    }
+
+    fn name(&self, run: &Run) -> String {
+        let row = match run.row {
+            Some(row) => format!("case {}", self.plan.program.rows[row].id),
+            None => return "the default".to_owned(),
+        };
+        match run.line {
+            Some(line) => format!("{row}, line {}", line + 1),
+            None => format!("{row} with the default value"),
+        }
+    }
+
+    fn differs(&self, reason: String, want: &Run) -> Box<Counterexample> {
+        Box::new(Counterexample { shape: self.plan.shape.name(), state: self.describe(), reason, row: want.row })
+    }
+
+    /// The path in table notation: the state, then what was asked.
+    fn describe(&self) -> Vec<String> {
+        let program = self.plan.program;
+        let mut state = Vec::new();
+        for (input, _) in program.states.digits() {
+            let declared = &program.inputs[input.index()];
+            let level = self.oracle.levels[input.index()];
+            state.push(format!("{} = {}", declared.name, declared.show(Value::Level(level))));
+        }
+        let printer = Printer { pool: &self.pool, inputs: &program.inputs };
+        for (question, answer, _) in &self.oracle.choices {
+            state.push(match question {
+                Question::Level(input) => {
+                    let declared = &program.inputs[input.index()];
+                    format!("{} = {}", declared.name, declared.show(Value::Level(*answer)))
+                }
+                Question::Compare(op, a, b) => {
+                    let symbol = match op {
+                        Comparison::Less => "<",
+                        Comparison::LessEqual => "<=",
+                        Comparison::Equal => "==",
+                    };
+                    let truth = if *answer == 0 { "holds" } else { "does not hold" };
+                    format!("{} {symbol} {} {truth}", printer.expr(*a), printer.expr(*b))
+                }
+            });
+        }
+        state
+    }
+
+    /// The program, by the definition of its meaning.
+    fn run_program(&mut self, state: usize) -> Run {
+        let program = self.plan.program;
+        let (mut fetched, absent) = (InputSet::default(), InputSet::default());
+        let mut places = Places::default();
+        while let Some(index) = self.candidates.next(state, &mut places) {
+            let row = &program.rows[index];
+            if !self.holds(row.guard, &mut fetched) {
+                continue;
+            }
+            for (number, line) in row.lines.iter().enumerate() {
+                if self.holds(line.condition, &mut fetched) {
+                    return Run { row: Some(index), line: Some(number), values: line.values.clone(), fetched, absent };
+                }
+            }
+            return Run { row: Some(index), line: None, values: program.default.clone(), fetched, absent };
+        }
+        Run { row: None, line: None, values: program.default.clone(), fetched, absent }
+    }
+
+    /// The plan, step by step, with the discipline of fetching checked.
+    fn run_plan(&mut self, state: usize) -> Result<Run, String> {
+        let plan = self.plan;
+        // What is fetched on this path, and what the code may mention: that, and what is gathered on others.
+        let (mut fetched, mut declared) = (InputSet::default(), InputSet::default());
+        let mut at = self.starts[state];
+        loop {
+            match plan.step(at) {
+                Step::Switch { arms } => {
+                    let arm = plan.lookup.get(state).and_then(|arm| arms.get(usize::from(*arm)));
+                    at = *arm.ok_or("the plan's lookup has no way for this state")?;
+                }
+                Step::Fetch { input, next } => {
+                    if declared.contains(*input) || !plan.program.fetched.contains(*input) {
+                        return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
+                    }
+                    fetched = fetched.or(InputSet::one(*input));
+                    declared = declared.or(InputSet::one(*input));
+                    at = *next;
+                }
+                Step::Gather { input, condition, next } => {
+                    if declared.contains(*input) || !plan.program.fetched.contains(*input) {
+                        return Err(format!("the plan fetches `{}` again", plan.program.inputs[input.index()].name));
+                    }
+                    match self.tested(*condition, declared)? {
+                        true => fetched = fetched.or(InputSet::one(*input)),
+                        false => self.absent = self.absent.or(InputSet::one(*input)),
+                    }
+                    declared = declared.or(InputSet::one(*input));
+                    at = *next;
+                }
+                Step::Test { condition, then, other } => {
+                    at = if self.tested(*condition, declared)? { *then } else { *other };
+                }
+                // Other gates are for these.
+                Step::Coefficients { .. } | Step::Orbit { .. } => {
+                    return Err("the plan computes otherwise than the table".to_owned());
+                }
+                Step::Leaf(Leaf { row, line, values }) => {
+                    for value in values {
+                        self.only_fetched(plan.pool.expr_facts(*value).inputs, declared)?;
+                    }
+                    return Ok(Run { row: *row, line: *line, values: values.clone(), fetched, absent: self.absent });
+                }
+            }
+        }
+    }
+
+    /// Whether a condition of the plan holds, which may mention what is declared.
+    fn tested(&mut self, condition: CondId, declared: InputSet) -> Result<bool, String> {
+        self.only_fetched(self.plan.pool.cond_facts(condition).inputs, declared)?;
+        Ok(self.holds(condition, &mut InputSet::default()))
+    }
+
+    fn only_fetched(&self, inputs: InputSet, fetched: InputSet) -> Result<(), String> {
+        match inputs.and(self.plan.program.fetched).minus(fetched).iter().next() {
+            None => Ok(()),
+            Some(input) => {
+                Err(format!("the plan uses `{}` without fetching it", self.plan.program.inputs[input.index()].name))
+            }
+        }
+    }
+
+    fn level(&mut self, input: InputId, fetched: &mut InputSet) -> u8 {
+        if !self.plan.program.fetched.contains(input) {
+            return self.oracle.levels[input.index()];
+        }
+        if self.absent.contains(input) {
+            return 0;
+        }
+        *fetched = fetched.or(InputSet::one(input));
+        let count = self.plan.program.levels(input).map_or(1, |levels| levels.count());
+        self.oracle.answer(Question::Level(input), count as u8)
+    }
+
+    fn holds(&mut self, condition: CondId, fetched: &mut InputSet) -> bool {
+        // Resolving makes expressions but no conditions, so the plan has them all.
+        let plan = self.plan;
+        match plan.pool.cond(condition) {
+            Cond::Const(value) => *value,
+            Cond::Level(input, levels) => levels.contains(self.level(*input, fetched)),
+            Cond::Compare(op, a, b) => {
+                let (a, b) = (self.resolve(*a, fetched), self.resolve(*b, fetched));
+                let compared = self.pool.recompare(*op, a, b);
+                match self.pool.truth(compared) {
+                    Some(value) => value,
+                    None => self.oracle.answer(Question::Compare(*op, a, b), 2) == 0,
+                }
+            }
+            Cond::Not(a) => !self.holds(*a, fetched),
+            Cond::And(parts) => parts.iter().all(|part| self.holds(*part, fetched)),
+            Cond::Or(parts) => parts.iter().any(|part| self.holds(*part, fetched)),
+            Cond::If(c, a, b) => {
+                let chosen = if self.holds(*c, fetched) { a } else { b };
+                self.holds(*chosen, fetched)
+            }
+        }
+    }
+
+    /// What a path comes to. Without fetched inputs it does not matter which
+    /// selections are made: if both sides have the same one, it stays as it is,
+    /// so that functions with many selections do not have a path for every combination.
+    fn results(&mut self, values: &[ExprId], fetched: &mut InputSet) -> Vec<ExprId> {
+        match self.plan.program.fetched.is_empty() {
+            true => values.to_vec(),
+            false => self.resolve_all(values, fetched),
+        }
+    }
+
+    /// An expression in which those selections are made that this path has decided already.
+    fn decided(&mut self, expr: ExprId) -> ExprId {
+        self.decided_memo(expr, &mut HashMap::new())
+    }
+
+    fn decided_memo(&mut self, expr: ExprId, memo: &mut HashMap<ExprId, ExprId>) -> ExprId {
+        if !self.pool.expr_facts(expr).selects {
+            return expr;
+        }
+        if let Some(done) = memo.get(&expr) {
+            return *done;
+        }
+        let result = match self.pool.node(expr) {
+            Node::Const(_) | Node::Result | Node::Input(_) => expr,
+            Node::Unary(op, a) => {
+                let a = self.decided_memo(a, memo);
+                self.pool.rebuild(Node::Unary(op, a))
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.decided_memo(a, memo), self.decided_memo(b, memo));
+                self.pool.rebuild(Node::Binary(op, a, b))
+            }
+            Node::Ternary(op, a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|part| self.decided_memo(part, memo));
+                self.pool.rebuild(Node::Ternary(op, a, b, c))
+            }
+            Node::Select(c, a, b) => match self.decides(c) {
+                Some(true) => self.decided_memo(a, memo),
+                Some(false) => self.decided_memo(b, memo),
+                None => {
+                    let (a, b) = (self.decided_memo(a, memo), self.decided_memo(b, memo));
+                    self.pool.select(c, a, b)
+                }
+            },
+        };
+        memo.insert(expr, result);
+        result
+    }
+
+    /// Whether a condition holds, if this path has decided that already.
+    fn decides(&self, condition: CondId) -> Option<bool> {
+        match self.plan.pool.cond(condition) {
+            Cond::Const(value) => Some(*value),
+            Cond::Level(input, levels) => Some(levels.contains(self.oracle.levels[input.index()])),
+            Cond::Compare(op, a, b) => self.oracle.known(Question::Compare(*op, *a, *b)).map(|answer| answer == 0),
+            Cond::Not(a) => self.decides(*a).map(|value| !value),
+            Cond::And(parts) => match parts.iter().map(|part| self.decides(*part)).find(|d| *d != Some(true)) {
+                None => Some(true),
+                Some(first) => first,
+            },
+            Cond::Or(parts) => match parts.iter().map(|part| self.decides(*part)).find(|d| *d != Some(false)) {
+                None => Some(false),
+                Some(first) => first,
+            },
+            Cond::If(c, a, b) => self.decides(*c).and_then(|chosen| self.decides(if chosen { *a } else { *b })),
+        }
+    }
+
+    fn resolve_all(&mut self, values: &[ExprId], fetched: &mut InputSet) -> Vec<ExprId> {
+        values.iter().map(|value| self.resolve(*value, fetched)).collect()
+    }
+
+    /// An expression with every selection decided by the oracle. Nothing else
+    /// changes: constants are folded only where that leaves every bit as it is.
+    fn resolve(&mut self, expr: ExprId, fetched: &mut InputSet) -> ExprId {
+        self.resolve_memo(expr, fetched, &mut HashMap::new())
+    }
+
+    fn resolve_memo(&mut self, expr: ExprId, fetched: &mut InputSet, memo: &mut HashMap<ExprId, ExprId>) -> ExprId {
+        let facts = self.pool.expr_facts(expr);
+        if !facts.selects && facts.inputs.and(self.absent).is_empty() {
+            *fetched = fetched.or(facts.inputs.and(self.plan.program.fetched));
+            return expr;
+        }
+        if let Some(done) = memo.get(&expr) {
+            return *done;
+        }
+        let result = match self.pool.node(expr) {
+            Node::Input(input) if self.absent.contains(input) => {
+                let least = self.plan.program.inputs[input.index()].least();
+                self.pool.number(least)
+            }
+            Node::Const(_) | Node::Result | Node::Input(_) => expr,
+            Node::Unary(op, a) => {
+                let a = self.resolve_memo(a, fetched, memo);
+                self.pool.rebuild(Node::Unary(op, a))
+            }
+            Node::Binary(op, a, b) => {
+                let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
+                self.pool.rebuild(Node::Binary(op, a, b))
+            }
+            Node::Ternary(op, a, b, c) => {
+                let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
+                let c = self.resolve_memo(c, fetched, memo);
+                self.pool.rebuild(Node::Ternary(op, a, b, c))
+            }
+            Node::Select(c, a, b) => {
+                let chosen = if self.holds(c, fetched) { a } else { b };
+                self.resolve_memo(chosen, fetched, memo)
+            }
+        };
+        memo.insert(expr, result);
+        result
+    }
+}

@@ -1,0 +1,130 @@
+//! Scenes: what is lit, by what, seen from where.
+//!
+//! A scene is a RON file; some come with Umbrage and are known by name. After
+//! reading there are triangles, one light and one camera, and nothing that a
+//! renderer would have to check again.
+
+mod mesh;
+pub mod rays;
+mod read;
+mod shapes;
+pub mod view;
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::scene::view::{Camera, Light, View};
+use crate::table;
+
+pub use shapes::Shape;
+pub use shapes::solid::Triangle;
+
+/// Largest accepted scene file, in bytes.
+const MAX_BYTES: u64 = 16 << 20;
+
+/// A scene, ready to be rendered.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Its name: that of a built-in scene, or the stem of its file's name.
+    pub name: String,
+    /// What it shows.
+    pub title: String,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// Its light.
+    pub light: Light,
+    /// The share of light that reaches shadows.
+    pub ambient: f64,
+    /// Colour of the background, linear.
+    pub background: [f64; 3],
+    /// What is in it; at least one object, each with at least one triangle.
+    pub objects: Vec<Object>,
+}
+
+/// A thing in a scene.
+#[derive(Debug, Clone)]
+pub struct Object {
+    /// Its colour, linear.
+    pub colour: [f64; 3],
+    /// Whether the shadow map is fitted to it.
+    pub casts: bool,
+    /// Its surface, seen from both sides.
+    pub triangles: Vec<Triangle>,
+}
+
+/// The scenes that come with Umbrage, by name.
+const BUILT_IN: [(&str, &str); 7] = [
+    ("fence", include_str!("../../scenes/fence.ron")),
+    ("foliage", include_str!("../../scenes/foliage.ron")),
+    ("lattice", include_str!("../../scenes/lattice.ron")),
+    ("outdoor", include_str!("../../scenes/outdoor.ron")),
+    ("slope", include_str!("../../scenes/slope.ron")),
+    ("teapot", include_str!("../../scenes/teapot.ron")),
+    ("text", include_str!("../../scenes/text.ron")),
+];
+
+impl Scene {
+    /// The names of the scenes that come with Umbrage, sorted.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        BUILT_IN.iter().map(|(name, _)| *name)
+    }
+
+    /// The scene with a name, or in a file.
+    ///
+    /// # Errors
+    /// When there is no such scene, or when it is wrong.
+    ///
+    /// ```
+    /// use umbrage::scene::Scene;
+    ///
+    /// let scene = Scene::open("fence")?;
+    /// assert!(scene.triangles().count() > 100);
+    /// assert!(Scene::open("fense").unwrap_err().to_string().contains("did you mean `fence`?"));
+    /// # Ok::<(), umbrage::diag::Failure>(())
+    /// ```
+    pub fn open(name: &str) -> Result<Self, Failure> {
+        if let Some((name, text)) = BUILT_IN.iter().find(|(known, _)| *known == name) {
+            return Self::parse(name, &Source::new(format!("scenes/{name}.ron"), *text), Path::new("scenes"));
+        }
+        let path = Path::new(name);
+        if path.extension().is_none() && !path.exists() {
+            let error = Diagnostic::error(codes::SCENE, format!("there is no scene `{name}`"));
+            let known: Vec<&str> = Self::names().collect();
+            let error = match table::nearest(name, known.iter().copied()) {
+                Some(close) => error.help(format!("did you mean `{close}`?")),
+                None => error,
+            };
+            let known = format!("the scenes are: {}; or give the path of a scene file (*.ron)", known.join(", "));
+            return Err(Failure::bare("", error.help(known)));
+        }
+        let shown = path.to_string_lossy().replace('\\', "/");
+        let source = Source::new(shown, table::read_text(path, MAX_BYTES)?);
+        let stem = path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned());
+        Self::parse(&stem, &source, path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Reads a scene from its text. Meshes are looked for below `directory`.
+    ///
+    /// # Errors
+    /// With every mistake found, each at its place.
+    pub fn parse(name: &str, source: &std::sync::Arc<Source>, directory: &Path) -> Result<Self, Failure> {
+        read::scene(name, source, directory).map_err(|diagnostics| Failure { source: source.clone(), diagnostics })
+    }
+
+    /// All triangles, with the number of the object that each belongs to.
+    pub fn triangles(&self) -> impl Iterator<Item = (usize, &Triangle)> {
+        self.objects.iter().enumerate().flat_map(|(index, object)| object.triangles.iter().map(move |t| (index, t)))
+    }
+
+    /// The square of the world that the shadow map shows.
+    pub fn light_view(&self) -> View {
+        let corners = |casters_only: bool| -> Vec<DVec3> {
+            let objects = self.objects.iter().filter(|object| object.casts || !casters_only);
+            objects.flat_map(|object| object.triangles.iter().flat_map(|triangle| triangle.corners)).collect()
+        };
+        let (casts, all) = (corners(true), corners(false));
+        self.light.view(if casts.is_empty() { &all } else { &casts }, &all)
+    }
+}

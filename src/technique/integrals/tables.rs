@@ -1,0 +1,183 @@
+//! The tables that the demonstration evaluates, over columns.
+
+use glam::DVec3;
+
+use super::Lobe;
+use super::cells::{Cell, Edge};
+use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::eval::{Batch, Column, Columns, Results};
+use crate::program::{Input, Program};
+use crate::table::Table;
+
+/// What the function of moments calls its numbers: ∫∫ ω, then ∫∫ ω ω.
+const MOMENTS: [&str; 9] = ["mx", "my", "mz", "mxx", "mxy", "myy", "mxz", "myz", "mzz"];
+
+/// The functions that are evaluated.
+#[derive(Debug)]
+pub struct Tables {
+    moments: Program,
+    /// Where each of [`MOMENTS`] is among the numbers that the function returns.
+    order: [usize; 9],
+    alpha: Program,
+    beta: Program,
+    #[cfg(feature = "gpu")]
+    interval: Program,
+}
+
+/// The integrals of direction, and of direction times direction, over the area that belongs to an edge.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Moments {
+    /// x, y, z
+    pub first: DVec3,
+    /// xx, xy, yy, xz, yz, zz
+    pub second: [f64; 6],
+}
+
+/// A lobe in a cell as `alpha + beta * (axis . direction)`.
+type Line = (f64, f64);
+
+fn function(source: &'static str, text: &'static str, name: &str) -> Result<Program, Failure> {
+    let all = Program::check_all(&Table::parse(Source::new(source, text))?)?;
+    let named = |program: &Program| program.function.as_ref().is_some_and(|function| function.name == name);
+    all.into_iter().find(named).ok_or_else(|| {
+        Failure::bare(source, Diagnostic::error(codes::NOT_APPLICABLE, format!("the table has no function `{name}`")))
+    })
+}
+
+impl Tables {
+    /// The tables that come with Umbrage.
+    ///
+    /// # Errors
+    /// Never for these tables, which are tested.
+    pub fn new() -> Result<Self, Failure> {
+        let double = ("tables/double_product.ron", include_str!("../../../tables/double_product.ron"));
+        let gaussian = ("tables/spherical_gaussian.ron", include_str!("../../../tables/spherical_gaussian.ron"));
+        let moments = function(double.0, double.1, "moments")?;
+        let names: Vec<String> = match &moments.output {
+            crate::program::Output::Record(names) => names.iter().map(|name| name.to_ascii_lowercase()).collect(),
+            _ => Vec::new(),
+        };
+        let mut order = [0; 9];
+        for (place, wanted) in order.iter_mut().zip(MOMENTS) {
+            let Some(index) = names.iter().position(|name| name == wanted) else {
+                let message = format!("`moments` returns no `{wanted}`");
+                return Err(Failure::bare(double.0, Diagnostic::error(codes::NOT_APPLICABLE, message)));
+            };
+            *place = index;
+        }
+        let alpha = function(gaussian.0, gaussian.1, "alpha")?;
+        let beta = function(gaussian.0, gaussian.1, "beta")?;
+        #[cfg(feature = "gpu")]
+        let interval = function(gaussian.0, gaussian.1, "interval")?;
+        Ok(Self {
+            moments,
+            order,
+            alpha,
+            beta,
+            #[cfg(feature = "gpu")]
+            interval,
+        })
+    }
+
+    /// Points of a program from one row of numbers each, in the order of these names.
+    fn columns<const N: usize>(
+        program: &Program,
+        names: [&str; N],
+        rows: impl Iterator<Item = [f64; N]>,
+    ) -> Result<Columns<f32>, Failure> {
+        let wrong = |message: String| Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message));
+        let mut numbers: [Vec<f32>; N] = std::array::from_fn(|_| Vec::with_capacity(rows.size_hint().0));
+        for row in rows {
+            numbers.iter_mut().zip(row).for_each(|(column, number)| column.push(number as f32));
+        }
+        let column = |input: &Input| {
+            let place = names.iter().position(|name| *name == input.name)?;
+            Some(Column::Numbers { values: std::mem::take(&mut numbers[place]), present: None })
+        };
+        let columns: Option<Vec<Column<f32>>> = program.inputs.iter().map(column).collect();
+        let columns =
+            columns.ok_or_else(|| wrong(format!("`{}` has other parameters than {names:?}", program.name)))?;
+        Columns::from_columns(program, columns).map_err(|error| wrong(format!("`{}`: {error}", program.name)))
+    }
+
+    /// The linear approximations of all lobes in all cells, cell by cell.
+    pub(super) fn lines(
+        &self,
+        interpreters: &mut Interpreters<'_>,
+        cells: &[Cell],
+        lobes: &[Lobe],
+    ) -> Result<Vec<Line>, Failure> {
+        // The largest value is 1; colours are applied later.
+        let rows = cells
+            .iter()
+            .flat_map(|cell| lobes.iter().zip(&cell.ranges).map(|(lobe, (a, b))| [1.0, lobe.sharpness, *a, *b]));
+        let columns = Self::columns(&self.alpha, ["mu", "lambda", "a", "b"], rows)?;
+        let alpha = evaluate(&mut interpreters.alpha, &columns)?;
+        let beta = evaluate(&mut interpreters.beta, &columns)?;
+        let lines = alpha.values(0).iter().zip(beta.values(0));
+        Ok(lines.map(|(alpha, beta)| (f64::from(*alpha), f64::from(*beta))).collect())
+    }
+
+    /// The moments of all edges.
+    pub(super) fn moments(&self, interpreters: &mut Interpreters<'_>, edges: &[Edge]) -> Result<Vec<Moments>, Failure> {
+        let names = ["phi0", "phi1", "theta0", "theta_a", "theta_b"];
+        let rows = edges.iter().map(|edge| {
+            let [a, b] = edge.ends;
+            [a.x, b.x, edge.theta, a.y, b.y]
+        });
+        let columns = Self::columns(&self.moments, names, rows)?;
+        let results = evaluate(&mut interpreters.moments, &columns)?;
+        let number = |which: usize, edge: usize| f64::from(results.values(self.order[which])[edge]);
+        Ok((0..edges.len())
+            .map(|edge| Moments {
+                first: DVec3::new(number(0, edge), number(1, edge), number(2, edge)),
+                second: std::array::from_fn(|i| number(3 + i, edge)),
+            })
+            .collect())
+    }
+
+    /// The moments of pieces.
+    #[cfg(feature = "gpu")]
+    pub(super) fn moments_of_pieces(&self) -> &Program {
+        &self.moments
+    }
+
+    /// What a shader evaluates that divides the directions by itself.
+    #[cfg(feature = "gpu")]
+    pub(super) fn for_shaders(&self) -> [&Program; 4] {
+        [&self.moments, &self.alpha, &self.beta, &self.interval]
+    }
+
+    /// Interpreters for the functions.
+    pub(super) fn interpreters(&self) -> Interpreters<'_> {
+        Interpreters {
+            moments: Batch::new(&self.moments),
+            alpha: Batch::new(&self.alpha),
+            beta: Batch::new(&self.beta),
+        }
+    }
+}
+
+/// Interpreters for the functions, which keep what they have specialised.
+#[derive(Debug)]
+pub(super) struct Interpreters<'t> {
+    moments: Batch<'t, f32>,
+    alpha: Batch<'t, f32>,
+    beta: Batch<'t, f32>,
+}
+
+fn evaluate(batch: &mut Batch<'_, f32>, columns: &Columns<f32>) -> Result<Results<f32>, Failure> {
+    batch.evaluate(columns).map_err(|_| missing())
+}
+
+fn missing() -> Failure {
+    Failure::bare("tables", Diagnostic::error(codes::NEEDS_FETCH, "a parameter of a function has no value"))
+}
+
+impl Moments {
+    /// The vector M n.
+    pub fn times(&self, n: DVec3) -> DVec3 {
+        let [xx, xy, yy, xz, yz, zz] = self.second;
+        DVec3::new(xx * n.x + xy * n.y + xz * n.z, xy * n.x + yy * n.y + yz * n.z, xz * n.x + yz * n.y + zz * n.z)
+    }
+}

@@ -1,0 +1,33 @@
+//! The techniques as renderers: from a scene to a picture, with every case visible.
+//!
+//! ```text
+//! scene ──▶ light, camera, triangles ──▶ ShadowMap, Receivers ──▶ Visibility ──▶ picture
+//! ```
+//!
+//! What lies between the shadow map and the visibility is the technique. Its
+//! skeleton (which texels are read, how far a walk goes) is written by hand,
+//! once here in plain Rust and once in WGSL; what the inputs so found *mean* is
+//! said by the tables alone, which the interpreter or the compiler evaluates.
+//!
+//! Both executors take the same [`ShadowMap`] and [`Receivers`], so that their
+//! cases can be compared pixel by pixel.
+
+mod case_free;
+pub mod cpu;
+mod frame;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+mod inputs;
+mod probe;
+pub mod reference;
+pub mod stage;
+mod variant;
+
+pub use frame::{
+    DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Visibility, fixed_depth, max_slope,
+};
+pub use inputs::Vocabulary;
+pub use variant::Technique;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,143 @@
+//! The passes before a technique, by ray casting: what the camera sees, what the
+//! light sees, and where the one lies in the other.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::{DEPTH_UNIT, Receiver, ReceiverKind, Receivers, ShadowMap, fixed_depth, max_slope};
+use crate::scene::Scene;
+use crate::scene::rays::{SurfacePoint, Tracer};
+use crate::scene::view::{Light, Plane, View};
+
+/// What is added to the depths of a shadow map, so that a surface does not shadow itself.
+///
+/// Receivers are continued as planes, which meet the map's own plane exactly; the
+/// bias has to cover rounding and curvature only, and can be small.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bias {
+    /// A constant, in units of [`DEPTH_UNIT`].
+    pub constant: f32,
+    /// Times the change of depth from a texel to the next.
+    pub slope: f32,
+}
+
+impl Default for Bias {
+    fn default() -> Self {
+        Self { constant: 4.0, slope: 0.25 }
+    }
+}
+
+/// What a camera sees: for each pixel the point of the surface at its centre.
+#[derive(Debug, Clone)]
+pub struct Picture {
+    /// Pixels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Row by row from the top; `None` where the background is seen.
+    pub points: Vec<Option<SurfacePoint>>,
+}
+
+/// A scene with everything that its passes share.
+#[derive(Debug)]
+pub struct Stage<'s> {
+    /// The scene.
+    pub scene: &'s Scene,
+    /// What rays are sent through.
+    pub tracer: Tracer,
+    /// What the light sees.
+    pub light_view: View,
+    /// The plane of each triangle over the light's square; `None` if it is seen edge-on.
+    planes: Vec<Option<Plane>>,
+}
+
+impl<'s> Stage<'s> {
+    /// Prepares a scene.
+    pub fn new(scene: &'s Scene) -> Self {
+        let (tracer, light_view) = (Tracer::new(scene), scene.light_view());
+        let planes = tracer.triangles().iter().map(|triangle| light_view.plane(triangle.corners)).collect();
+        Self { scene, tracer, light_view, planes }
+    }
+
+    /// What the camera sees.
+    pub fn picture(&self, width: u32, height: u32) -> Picture {
+        let view = self.scene.camera.view(width, height);
+        let across = f64::from(width);
+        let down = f64::from(height);
+        let row = |y: u32| (0..width).map(move |x| (f64::from(x) + 0.5, f64::from(y) + 0.5));
+        let points = (0..height)
+            .into_par_iter()
+            .flat_map_iter(row)
+            .map(|(x, y)| self.tracer.see(view.ray(x / across, y / down)))
+            .collect();
+        Picture { width, height, points }
+    }
+
+    /// What the light sees, one depth per texel, at the texel's centre.
+    pub fn shadow_map(&self, size: u32, bias: Bias) -> ShadowMap {
+        let texel = 1.0 / f64::from(size);
+        let depth = |index: u64| {
+            let x = ((index % u64::from(size)) as f64 + 0.5) * texel;
+            let y = ((index / u64::from(size)) as f64 + 0.5) * texel;
+            let Some(number) = self.tracer.first(self.light_view.ray(x, y)) else { return 1.0 };
+            // Edge-on triangles are met by rounding only.
+            let Some(plane) = self.planes[number as usize] else { return 1.0 };
+            let slope = (plane.du.abs().max(plane.dv.abs()) * texel) as f32;
+            let added = bias.constant * DEPTH_UNIT + bias.slope * slope.min(max_slope(size));
+            (fixed_depth(plane.at(x, y) as f32, 1.0) + added).clamp(0.0, 1.0)
+        };
+        ShadowMap { size, depth: (0..u64::from(size) * u64::from(size)).into_par_iter().map(depth).collect() }
+    }
+
+    /// Where the points of a picture lie in a shadow map of a size.
+    pub fn receivers(&self, picture: &Picture, size: u32) -> Receivers {
+        let receiver = |point: &Option<SurfacePoint>| match point {
+            Some(point) => self.receiver(point, size),
+            None => Receiver::default(),
+        };
+        let points = picture.points.par_iter().map(receiver).collect();
+        Receivers { width: picture.width, height: picture.height, points }
+    }
+
+    fn receiver(&self, point: &SurfacePoint, size: u32) -> Receiver {
+        let away = Receiver { kind: ReceiverKind::Away, ..Receiver::default() };
+        if !self.faces_light(point) {
+            return away;
+        }
+        let Some((place, depth)) = self.light_view.project(point.place) else { return away };
+        let Some(plane) = self.planes[point.triangle as usize] else { return away };
+        let (limit, texel) = (max_slope(size), 1.0 / f64::from(size));
+        let (u, v) = (place.x as f32, place.y as f32);
+        // The centre of the texel that the rounded place is in.
+        let centre = DVec2::new(f64::from((u * size as f32).floor()), f64::from((v * size as f32).floor()));
+        let centre = (centre + 0.5) * texel;
+        let [dz_dx, dz_dy] = [plane.du, plane.dv].map(|slope| fixed_depth((slope * texel) as f32, limit));
+        // Where the plane is too steep to be followed to the centre, it is followed as far as it goes.
+        let is_steep = [plane.du, plane.dv].iter().any(|slope| (slope * texel).abs() > f64::from(limit));
+        let z = match is_steep {
+            false => plane.at(centre.x, centre.y),
+            true => {
+                let off = (centre - place) * f64::from(size);
+                depth + f64::from(dz_dx) * off.x + f64::from(dz_dy) * off.y
+            }
+        };
+        Receiver { u, v, z: fixed_depth(z.clamp(0.0, 1.0) as f32, 1.0), kind: ReceiverKind::Facing, dz_dx, dz_dy }
+    }
+
+    /// Whether the side of a surface that is seen is the one that the light could reach.
+    pub(crate) fn faces_light(&self, point: &SurfacePoint) -> bool {
+        point.normal.dot(self.scene.light.direction(point.place)) < 0.0
+    }
+
+    /// Whether a point is in the light, were shadows perfect.
+    pub(crate) fn is_lit(&self, point: &SurfacePoint) -> bool {
+        if !self.faces_light(point) {
+            return false;
+        }
+        let distance = match self.scene.light {
+            Light::Directional { .. } => f64::INFINITY,
+            Light::Spot { position, .. } => (position - point.place).length(),
+        };
+        self.tracer.sees_light(point, -self.scene.light.direction(point.place), distance)
+    }
+}

@@ -1,0 +1,58 @@
+//! Visibility → picture: diffuse surfaces under the scene's light.
+
+use glam::DVec3;
+use image::{Rgb, Rgb32FImage, RgbImage};
+
+use super::revectorise::stage::{Picture, Stage};
+
+/// The picture in linear light: for each pixel colour × (s + (1 - s) × visibility × what the light's direction
+/// leaves), s being the ambient share.
+pub fn shade(stage: &Stage<'_>, picture: &Picture, visibility: &[f32]) -> Rgb32FImage {
+    let scene = stage.scene;
+    let ambient = scene.ambient;
+    let mut image = Rgb32FImage::new(picture.width, picture.height);
+    for ((pixel, point), visible) in image.pixels_mut().zip(&picture.points).zip(visibility) {
+        let colour = match point {
+            None => DVec3::from_array(scene.background),
+            Some(point) => {
+                let towards = -scene.light.direction(point.place);
+                let facing = point.smooth_normal.dot(towards).max(0.0) * scene.light.brightness(point.place);
+                // The sky above is brighter than the ground below.
+                let sky = 0.75 + 0.25 * point.smooth_normal.y;
+                let light = ambient * sky + (1.0 - ambient) * f64::from(*visible) * facing;
+                DVec3::from_array(scene.objects[point.object as usize].colour) * light
+            }
+        };
+        *pixel = Rgb(colour.as_vec3().to_array());
+    }
+    image
+}
+
+/// Linear light → the values of an sRGB picture, 8 bits each.
+pub fn encode(linear: &Rgb32FImage) -> RgbImage {
+    let mut image = RgbImage::new(linear.width(), linear.height());
+    for (out, pixel) in image.pixels_mut().zip(linear.pixels()) {
+        *out = Rgb(pixel.0.map(srgb));
+    }
+    image
+}
+
+/// The sRGB transfer function.
+fn srgb(linear: f32) -> u8 {
+    let linear = linear.clamp(0.0, 1.0);
+    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 };
+    (encoded * 255.0).round() as u8
+}
+
+/// The values of an sRGB picture → linear light.
+pub fn decode(encoded: &RgbImage) -> Rgb32FImage {
+    let mut image = Rgb32FImage::new(encoded.width(), encoded.height());
+    let linear = |value: u8| {
+        let value = f32::from(value) / 255.0;
+        if value <= 0.040_45 { value / 12.92 } else { libm::powf((value + 0.055) / 1.055, 2.4) }
+    };
+    for (out, pixel) in image.pixels_mut().zip(encoded.pixels()) {
+        *out = Rgb(pixel.0.map(linear));
+    }
+    image
+}

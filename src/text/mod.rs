@@ -1,0 +1,6 @@
+//! Text on its way in and out: tokens, RON with places, files, the closest word.
+//!
+//! Nothing here knows what a table is.
+
+pub(crate) mod raw;
+pub(crate) mod tokens;

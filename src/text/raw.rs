@@ -1,0 +1,340 @@
+//! RON with places.
+//!
+//! `ron` reports positions for syntax errors only, not for values. But a
+//! borrowed [`RawValue`] is a slice of the source text, so its address minus
+//! the address of the source is its position. A table is therefore read in
+//! layers: serde sorts a struct's fields into [`Raw`] slices, and each slice is
+//! read by itself, knowing where it stands.
+
+use ron::Options;
+use ron::extensions::Extensions;
+use ron::value::RawValue;
+use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+
+use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
+use crate::table::expr::Expr;
+use crate::table::parse;
+
+/// A piece of RON, not yet interpreted.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Raw<'a>(&'a str);
+
+impl<'de: 'a, 'a> Deserialize<'de> for Raw<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let raw: &'a RawValue = Deserialize::deserialize(deserializer)?;
+        Ok(Raw(trim(raw.get_ron())))
+    }
+}
+
+/// Without the white space and comments around it.
+/// (`RawValue::trim` does the same by parsing the piece once more.)
+fn trim(text: &str) -> &str {
+    let rest = trim_start(text);
+    // Comments behind a value belong to its piece where no comma comes before them.
+    if rest.contains("//") || rest.contains("/*") { &rest[..super::tokens::significant(rest)] } else { rest }
+}
+
+fn trim_start(text: &str) -> &str {
+    let mut rest = text.trim();
+    loop {
+        let after = if rest.starts_with("//") {
+            rest.find('\n').map(|end| &rest[end..])
+        } else if rest.starts_with("/*") {
+            block_comment_end(rest).map(|end| &rest[end..])
+        } else {
+            None
+        };
+        match after {
+            Some(after) => rest = after.trim_start(),
+            None => return rest,
+        }
+    }
+}
+
+/// Where the block comment at the start of a text ends; they nest.
+pub(crate) fn block_comment_end(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    let mut at = 0;
+    loop {
+        if text[at..].starts_with("/*") {
+            depth += 1;
+            at += 2;
+        } else if text[at..].starts_with("*/") {
+            depth -= 1;
+            at += 2;
+        } else {
+            at += text[at..].chars().next()?.len_utf8();
+        }
+        if depth == 0 {
+            return Some(at);
+        }
+    }
+}
+
+/// A map in the order written, duplicates included.
+#[derive(Debug)]
+pub(crate) struct RawMap<'a>(pub(crate) Vec<(Raw<'a>, Raw<'a>)>);
+
+impl<'a> RawMap<'a> {
+    pub(crate) fn empty() -> Self {
+        RawMap(Vec::new())
+    }
+}
+
+impl<'de: 'a, 'a> Deserialize<'de> for RawMap<'a> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = RawMap<'de>;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a map such as `{\"name\": value}`")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(RawMap(entries))
+            }
+        }
+        deserializer.deserialize_map(Entries)
+    }
+}
+
+/// Reads pieces of one source.
+#[derive(Clone, Copy)]
+pub(crate) struct Reader<'a> {
+    source: &'a Source,
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(source: &'a Source) -> Self {
+        Self { source }
+    }
+
+    /// The whole source as one piece.
+    pub(crate) fn whole(&self) -> Raw<'a> {
+        Raw(&self.source.text)
+    }
+
+    /// Where the first thing stands that is neither blank nor a comment.
+    pub(crate) fn first(&self) -> usize {
+        let mut rest = self.source.text.as_str();
+        loop {
+            rest = rest.trim_start();
+            let end = match rest.get(..2) {
+                Some("//") => rest.find('\n').unwrap_or(rest.len()),
+                Some("/*") => rest.find("*/").map_or(rest.len(), |i| i + 2),
+                _ => return self.source.text.len() - rest.len(),
+            };
+            rest = &rest[end..];
+        }
+    }
+
+    /// Where a piece stands.
+    pub(crate) fn span(&self, raw: Raw<'a>) -> Span {
+        // A `Raw` is a slice of the source, so the difference of the addresses is its offset.
+        let start = (raw.0.as_ptr() as usize).saturating_sub(self.source.text.as_ptr() as usize);
+        Span::new(start, start + raw.0.len())
+    }
+
+    /// Reads a piece as `T`.
+    pub(crate) fn get<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<T, Diagnostic> {
+        let options = Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        options.from_str(raw.0).map_err(|error| {
+            let base = self.span(raw).start;
+            let offset = |p: ron::error::Position| base + Source::offset(raw.0, p.line, p.col);
+            let (start, end) = (offset(error.span.start), offset(error.span.end));
+            let end = end.max(start).min(self.source.text.len());
+            let start = start.min(end);
+            // What is missing at the end of a line is shown there.
+            let end = self.source.text[start..end].find('\n').map_or(end, |newline| start + newline);
+            describe(&error.code).at(Span::new(start, end), "here")
+        })
+    }
+
+    /// Reads a piece as `T` and keeps its place.
+    pub(crate) fn spanned<T: Deserialize<'a>>(&self, raw: Raw<'a>) -> Result<Spanned<T>, Diagnostic> {
+        Ok(Spanned::new(self.span(raw), self.get(raw)?))
+    }
+
+    /// A word in quotes or bare: `"left"`, `left`, `0.5`, `true`.
+    pub(crate) fn word(&self, raw: Raw<'a>) -> Result<Spanned<String>, Diagnostic> {
+        let quoted = raw.0.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+        match quoted {
+            // Most words; reading them as RON would only cost time.
+            Some(word) if !word.contains(['\\', '"']) => Ok(Spanned::new(self.span(raw), word.to_owned())),
+            _ if raw.0.starts_with(['"', 'r']) && raw.0.ends_with(['"', '#']) => self.spanned(raw),
+            _ => Ok(Spanned::new(self.span(raw), raw.0.to_owned())),
+        }
+    }
+
+    /// What a piece starts with decides how it is read.
+    pub(crate) fn shape(&self, raw: Raw<'a>) -> Shape<'a> {
+        match raw.0.as_bytes().first() {
+            Some(b'"') => Shape::Text,
+            Some(b'r') if raw.0.starts_with("r\"") || raw.0.starts_with("r#") => Shape::Text,
+            Some(b'{') => Shape::Map,
+            Some(b'[') => Shape::List,
+            Some(b'(') => Shape::Tuple,
+            Some(b) if b.is_ascii_alphabetic() || *b == b'_' => {
+                let end = raw.0.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(raw.0.len());
+                if end == raw.0.len() { Shape::Word(raw.0) } else { Shape::Variant(&raw.0[..end]) }
+            }
+            _ => Shape::Other,
+        }
+    }
+
+    /// The expression in a piece: a string, or a bare number or boolean.
+    pub(crate) fn expr(&self, raw: Raw<'a>) -> Result<Expr, Diagnostic> {
+        let span = self.span(raw);
+        match self.shape(raw) {
+            Shape::Text => {
+                let text = raw.0;
+                let hashes = text.trim_start_matches('r').bytes().take_while(|b| *b == b'#').count();
+                let quote = usize::from(text.starts_with('r')) + hashes + 1;
+                if !text.starts_with('r')
+                    && let Some(escape) = text.find('\\')
+                {
+                    let at = span.start + escape;
+                    return Err(Diagnostic::error(codes::EXPRESSION, "an expression contains no escapes")
+                        .at(Span::new(at, at + 1), "unexpected `\\`"));
+                }
+                parse::expression(&text[quote..text.len() - 1 - hashes], span.start + quote)
+            }
+            Shape::Word("true" | "false") | Shape::Other => parse::expression(raw.0, span.start),
+            _ => Err(Diagnostic::error(codes::STRUCTURE, "expected an expression")
+                .at(span, "neither a string nor a number")
+                .help("write it as a string, for instance \"min(px, 1 - py)\"")),
+        }
+    }
+}
+
+/// The outward form of a piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Shape<'a> {
+    Text,
+    Map,
+    List,
+    Tuple,
+    /// A bare word and nothing else.
+    Word(&'a str),
+    /// A bare word that something follows.
+    Variant(&'a str),
+    Other,
+}
+
+/// A RON error in the words of the table language.
+fn describe(error: &ron::Error) -> Diagnostic {
+    use ron::Error as E;
+    let quoted = |names: &[&str]| names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+    let known = |names: &[&'static str]| format!("known here: {}", quoted(names));
+    match error {
+        E::NoSuchStructField { expected, found, .. } => {
+            let error = Diagnostic::error(codes::STRUCTURE, format!("unknown field `{found}`"));
+            match nearest(found, expected.iter().copied()) {
+                Some(close) => error.help(format!("did you mean `{close}`?")),
+                None => error,
+            }
+            .help(known(expected))
+        }
+        E::NoSuchEnumVariant { expected, found, .. } => {
+            Diagnostic::error(codes::STRUCTURE, format!("unknown variant `{found}`")).help(known(expected))
+        }
+        E::MissingStructField { field, outer } => {
+            let outer = outer.as_deref().map(|o| format!(" in `{o}`")).unwrap_or_default();
+            Diagnostic::error(codes::STRUCTURE, format!("the field `{field}` is missing{outer}"))
+        }
+        E::DuplicateStructField { field, .. } => {
+            Diagnostic::error(codes::STRUCTURE, format!("the field `{field}` is given twice"))
+        }
+        E::ExceededRecursionLimit => Diagnostic::error(codes::RON, "the file is nested too deeply")
+            .help("tables need no more than about ten levels of brackets"),
+        E::InvalidValueForType { expected, found } => {
+            Diagnostic::error(codes::STRUCTURE, format!("expected {expected}, found {found}"))
+        }
+        E::ExpectedInteger => expected("a whole number"),
+        E::ExpectedFloat => expected("a number"),
+        E::ExpectedBoolean => expected("`true` or `false`"),
+        E::ExpectedString => expected("a text in double quotes"),
+        E::ExpectedArray => expected("a list, written [a, b]"),
+        E::ExpectedMap => expected("a map, written {\"name\": value}"),
+        E::ExpectedStructLike | E::ExpectedNamedStructLike(_) => {
+            expected("fields in parentheses, written (name: value)")
+        }
+        E::ExpectedComma => malformed("a comma is missing before this").help(UNCLOSED),
+        E::ExpectedMapColon | E::ExpectedStructLikeEnd | E::ExpectedArrayEnd | E::ExpectedMapEnd => {
+            malformed(&lower_first(&error.to_string())).help(UNCLOSED)
+        }
+        E::Eof => malformed("the file ends here, but a bracket is still open").help(UNCLOSED),
+        E::ExpectedStringEnd => malformed("the text that begins here never ends").help("close it with a double quote"),
+        E::TrailingCharacters => {
+            malformed("the table ends before this").help("remove what follows, or a closing bracket too many before it")
+        }
+        other => malformed(&lower_first(&other.to_string())),
+    }
+}
+
+const UNCLOSED: &str = "if it looks right here, look above for a bracket or a double quote that is not closed";
+
+fn malformed(what: &str) -> Diagnostic {
+    Diagnostic::error(codes::RON, format!("malformed RON: {what}"))
+}
+
+fn expected(what: &str) -> Diagnostic {
+    Diagnostic::error(codes::STRUCTURE, format!("expected {what}"))
+}
+
+fn lower_first(text: &str) -> String {
+    let mut chars = text.chars();
+    match chars.next() {
+        Some(first) => first.to_lowercase().chain(chars).collect(),
+        None => String::new(),
+    }
+}
+
+/// The known name closest to a misspelt one, if any is close. Wrong capitals are the smallest mistake.
+pub(crate) fn nearest<'n>(found: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
+    if found.len() > 64 {
+        return None;
+    }
+    let limit = (found.chars().count() / 3).max(1);
+    let folded = found.to_lowercase();
+    known
+        .into_iter()
+        .map(|k| (distance(&folded, &k.to_lowercase()), distance(found, k), k))
+        .filter(|(d, ..)| *d <= limit)
+        .min()
+        .map(|(_, _, k)| k)
+}
+
+/// Levenshtein distance.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_name_in_the_wrong_capitals_is_the_nearest() {
+        assert_eq!(nearest("b", ["A", "B", "b1"]), Some("B"));
+        assert_eq!(nearest("LO_ENDS", ["Lo", "Lo_ends"]), Some("Lo_ends"));
+        assert_eq!(nearest("sine", ["sin", "cos"]), Some("sin"));
+        assert_eq!(nearest("tangent", ["sin", "cos"]), None);
+    }
+}
