@@ -85,7 +85,17 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
     // the main run does: wgpu is built once.
     steps.run(
         "adapter",
-        tests(&["test", "--workspace", "--features", "umbrage/trial", "--test", "gpu_adapter", "--", "--nocapture"]),
+        tests(&[
+            "test",
+            "--workspace",
+            "--features",
+            "umbrage/trial",
+            "--test",
+            "device",
+            "adapter::",
+            "--",
+            "--nocapture",
+        ]),
     )?;
     let mut all = tests(&["test", "--workspace", "--features", "umbrage/trial"]);
     all.args(arguments);

@@ -106,7 +106,7 @@ fn misprints(text: &mut String, mended: &Program, found: &[Found]) {
         "### Misprints\n\nBeside a misprint stand the warnings that point at one of its cases first. They tell that \
          something is\nwrong with the case, not what: a case with several misprints has the same warnings beside \
          each, and so\nhas one whose misprint is in the words around the formula, where no analysis looks. \
-         `tests/findings.rs`\nputs each misprint of a formula back alone and says what is found then.\n\n",
+         `tests/cli/findings.rs`\nputs each misprint of a formula back alone and says what is found then.\n\n",
     );
     text.push_str("| no | cases | printed | meant | findings |\n|---|---|---|---|---|\n");
     for (number, misprint) in &list {

@@ -1,0 +1,385 @@
+//! Everything that can be wrong with what a user gives, and what is said of it.
+//!
+//! Each message is a snapshot. Besides, every failure exits with 2 and leaves
+//! files as they were.
+
+use crate::support::Place;
+
+const TABLE: &str = r#"Table(
+    language: 1,
+    name: "demo",
+    hit_policy: First,
+    inputs: {
+        "side": Levels(values: {"none": 0, "left": 0.25, "right": 0.5}),
+        "far":  Bool(),
+        "x":    Range(from: 0, to: 1),
+        "seen": Bool(fetched: (cost: 1), doc: "whether it is seen"),
+    },
+    names: {
+        "near": "x < 0.5",
+    },
+    symmetries: {
+        "turn": Symmetry(map: {"side": {"left": "right", "right": "left"}}),
+    },
+    output: Number(),
+    cases: [
+        Case(id: 1, when: "side == left && near", value: "x * 2"),
+        Case(id: 3, is: Image(case: 1, under: "turn")),
+        Case(id: 2, when: "far && seen", value: "1 - x"),
+    ],
+    default: 0,
+)
+"#;
+
+/// The facts worth knowing about it.
+const NOTES: &str = "\
+demo.ron:19:28: note[U0509]: case 1 must come before case 2: they hold together and differ
+ = cases 1 and 2 hold at side=left,far=true,x=0.4052734375,seen=true
+demo.ron:20:47: note[U0509]: case 3 must come before case 2: they hold together and differ
+ = cases 3 and 2 hold at side=right,far=true,x=0.4052734375,seen=true
+demo.ron:4:17: note[U0503]: no case claims 1 of the 6 states; they get the default
+ = these are the states with side == none && !far
+ = to claim them: Case(id: 4, when: \"side == none && !far\", value: ...)
+demo.ron:20:47: note[U0521]: cases 1 and 3 could be one
+ = they give the same, and together their guards say `side != none && x < 0.5`
+";
+
+const ROWS: &str = "side,far,x,seen\nleft,false,0.25,\n";
+
+/// What `check` says of the table after replacing a part of it. `eval` refuses
+/// it as well, and touches nothing.
+fn refused(old: &str, new: &str) -> String {
+    assert!(TABLE.contains(old), "{old} is not in the table");
+    refused_text(TABLE.replacen(old, new, 1))
+}
+
+fn refused_text(text: impl AsRef<[u8]>) -> String {
+    let place = Place::new();
+    place.file("demo.ron", text).file("rows.csv", ROWS).file("out.csv", "as before");
+    let checked = place.run("check demo.ron");
+    assert_eq!(checked.code, Some(2), "{}", checked.all());
+    for command in [
+        "eval demo.ron --input rows.csv --output out.csv",
+        "eval demo.ron --input rows.csv --output new.csv",
+        "explain demo.ron --at side=left,far=false,x=0.25",
+    ] {
+        let said = place.run(command);
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""), "{}", said.all());
+        assert_eq!(said.err, checked.err);
+    }
+    assert_eq!(place.read("out.csv"), "as before");
+    assert_eq!(place.files(), ["demo.ron", "out.csv", "rows.csv"]);
+    checked.all()
+}
+
+/// What `eval` says of rows. No file is made or changed.
+fn rejected(name: &str, rows: impl AsRef<[u8]>) -> String {
+    let place = Place::new();
+    place.file("demo.ron", TABLE).file(name, rows).file("out.csv", "as before");
+    let said = place.run(&format!("eval demo.ron --input {name} --output out.csv"));
+    assert_eq!(said.code, Some(2), "{}", said.all());
+    assert_eq!(place.read("out.csv"), "as before");
+    let piped = place.run(&format!("eval demo.ron --input {name} --output -"));
+    assert_eq!((piped.code, piped.out.as_str()), (Some(2), ""));
+    assert_eq!(place.files().len(), 3, "{:?}", place.files());
+    said.all()
+}
+
+/// Names the snapshot after its first argument.
+macro_rules! says {
+    ($name:literal, $said:expr) => {
+        insta::assert_snapshot!($name, $said)
+    };
+}
+
+#[test]
+fn the_table_itself_is_fine() {
+    let place = Place::new();
+    place.file("demo.ron", TABLE).file("rows.csv", ROWS);
+    let said = place.run("check demo.ron");
+    assert_eq!(
+        said.all(),
+        format!(
+            "exit code: 0\nstdout:\nok    demo.ron: 3 cases, 4 inputs (1 fetched), 6 states, 0 examples run\nstderr:\n{NOTES}"
+        )
+    );
+    let said = place.run("eval demo.ron --input rows.csv");
+    assert_eq!(said.all(), "exit code: 0\nstdout:\ncase,value\n1,0.5\n");
+}
+
+#[test]
+fn malformed_ron() {
+    says!("ron_unclosed", refused("    default: 0,\n)", "    default: 0,\n"));
+    says!("ron_missing_comma", refused("name: \"demo\",", "name: \"demo\""));
+    says!("ron_trailing", refused("    default: 0,\n)", "    default: 0,\n) extra"));
+    says!("ron_unclosed_string", refused("\"demo\"", "\"demo"));
+    says!("ron_not_a_table", refused_text("[1, 2, 3]"));
+    says!("ron_wrong_type", refused("id: 1", "id: \"one\""));
+    says!("ron_language", refused("language: 1", "language: 7"));
+}
+
+#[test]
+fn fields() {
+    says!("field_unknown", refused("when: \"far && seen\"", "wenn: \"far && seen\""));
+    says!("field_unknown_at_top", refused("hit_policy: First,", "hit_policy: First,\n    hitpolicy: First,"));
+    says!("field_missing", refused("    output: Number(),\n", ""));
+    says!("field_twice", refused("    output: Number(),\n", "    output: Number(),\n    output: Number(),\n"));
+    says!("variant_unknown", refused("Bool(),", "Boolean(),"));
+    says!("case_without_value", refused(", value: \"1 - x\"", ""));
+    says!("hit_policy", refused("hit_policy: First", "hit_policy: Any"));
+    says!("hit_policy_with_more", refused("hit_policy: First", "hit_policy: First(3)"));
+    says!("default_with_more", refused("\"right\": 0.5})", "\"right\": 0.5}, default: left(5))"));
+    says!("enumeration_of_condition", refused("Number()", "Enumeration(of: \"far\")"));
+    says!("list_of_condition", refused("Number()", "List(of: \"seen\", max: 2)"));
+}
+
+#[test]
+fn names_in_expressions() {
+    says!("input_unknown", refused("far && seen", "fra && seen"));
+    says!("level_unknown", refused("side == left", "side == lft"));
+    says!("level_as_value", refused("\"1 - x\"", "\"left\""));
+    says!("level_unknown_in_guard_data", refused("\"side == left && near\"", "{\"side\": [\"left\", \"up\"]}"));
+    says!("input_unknown_in_guard_data", refused("\"side == left && near\"", "{\"sides\": \"left\"}"));
+    says!("function_unknown", refused("1 - x", "mx(x, 1)"));
+    says!("symmetry_unknown", refused("under: \"turn\"", "under: \"tern\""));
+}
+
+#[test]
+fn expressions() {
+    says!("type_condition", refused("far && seen", "far && x"));
+    says!("type_number", refused("1 - x", "1 - far"));
+    says!("type_result", refused("1 - x", "x < 1"));
+    says!("parenthesis_open", refused("1 - x", "(1 - x"));
+    says!("parenthesis_close", refused("1 - x", "1 - x)"));
+    says!("operator_missing", refused("1 - x", "1 x"));
+    says!("character", refused("far && seen", "far & seen"));
+    says!("comparison_chain", refused("x < 0.5", "0 < x < 0.5"));
+    says!("else_missing", refused("1 - x", "if far { x }"));
+    says!("arguments", refused("1 - x", "max(x)"));
+    says!("empty_expression", refused("1 - x", ""));
+    says!("division_by_zero", refused("1 - x", "x / (1 - 1)"));
+    says!("remainder_of_zero", refused("1 - x", "x % 0"));
+    says!("too_large", refused("1 - x", "x * 1e39"));
+    says!("not_finite", refused("1 - x", "x + log(-1)"));
+    says!("swizzle_mixed", refused("1 - x", "length(vec4(x).xg)"));
+    says!("levels_alike", {
+        let levels = "Levels(values: {\"none\": 0, \"left\": 0.25, \"right\": 0.5})";
+        let text = TABLE.replace("\"far\":", &format!("\"other\": {levels},\n        \"far\":"));
+        refused_text(text.replace("far && seen", "side == other"))
+    });
+    says!("let_hides_input", refused("1 - x", "let x = 1; x"));
+    says!("let_hides_name", refused("1 - x", "let near = 1; near"));
+    says!("let_hides_let", refused("1 - x", "let q = 1; let q = 2; q"));
+    says!("let_dotted", refused("1 - x", "let q.r = 1; q.r"));
+}
+
+#[test]
+fn cases() {
+    says!("case_twice", refused("id: 2", "id: 1"));
+    says!("case_missing", refused("1 - x", "case(4)"));
+    says!("case_missing_image", refused("case: 1,", "case: 9,"));
+    says!("case_circular_itself", refused("1 - x", "case(2)"));
+    says!("case_image_of_itself", refused("case: 1,", "case: 3,"));
+    says!(
+        "case_circular_two",
+        refused_text(TABLE.replace("\"x * 2\"", "\"case(2)\"").replace("\"1 - x\"", "\"case(1)\""))
+    );
+    says!("name_circular", refused("\"x < 0.5\"", "\"!near\""));
+    says!("name_circular_two", refused("\"x < 0.5\",", "\"!distant\",\n        \"distant\": \"!near\","));
+    says!("no_cases", {
+        let from = TABLE.find("        Case(").unwrap();
+        let to = TABLE.find("    ],\n    default").unwrap();
+        refused_text(format!("{}{}", &TABLE[..from], &TABLE[to..]))
+    });
+    says!("line_unreachable", refused("value: \"1 - x\"", "lines: [(\"x\", \"near\"), \"1 - x\", (1, \"far\")]"));
+    says!("replacement_out_of_range", refused("1 - x", "case(1, x = 5)"));
+    says!("level_renamed_twice", refused("\"left\": \"right\",", "\"left\": \"right\", 0.25: \"none\","));
+    says!("example_beyond_clamp", {
+        let example = "value: \"1 - x\", examples: [({\"side\": none, \"far\": true, \"x\": 0, \"seen\": true}, 7)]";
+        refused_text(TABLE.replace("Number()", "Number(clamp: (0, 1))").replace("value: \"1 - x\"", example))
+    });
+    says!("example_unknown_input", refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"y\": 1}, 1)]"));
+    says!("example_incomplete", refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"far\": true}, 1)]"));
+    says!(
+        "example_out_of_range",
+        refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"far\": true, \"side\": none, \"x\": 2}, 1)]")
+    );
+}
+
+#[test]
+fn names_that_are_taken() {
+    says!("reserved_input", refused("\"far\":", "\"uniform\":"));
+    says!("reserved_table", refused("\"demo\"", "\"float\""));
+    says!("reserved_name", refused("\"near\":", "\"while\":"));
+    says!("name_twice", refused("\"near\":", "\"far\": \"x < 1\",\n        \"near\":"));
+    says!("level_twice", refused("\"left\": 0.25", "\"none\": 0.25"));
+    says!("level_keyword", refused("\"none\"", "\"if\""));
+    says!("level_code_twice", refused("\"left\": 0.25", "\"left\": 0.5"));
+    says!("name_hides_table", refused("\"near\":", "\"demo_key\": \"x\",\n        \"near\":"));
+}
+
+#[test]
+fn names_that_smuggle_code() {
+    let code = "\"a; } fn evil(\"";
+    says!("smuggle_input", refused("\"far\"", code));
+    says!("smuggle_level", refused("\"none\"", code));
+    says!("smuggle_table", refused("\"demo\"", code));
+    says!("smuggle_name", refused("\"near\"", code));
+    says!("smuggle_symmetry", refused("\"turn\"", code));
+    says!("smuggle_newline", refused("\"far\"", "\"a\\n#include\""));
+    says!("smuggle_comment", refused("\"turn\"", "\"*/ evil /*\""));
+}
+
+#[test]
+fn deep_nesting() {
+    let deep = 10_000;
+    let wrap = |open: &str, close: &str| format!("{}x{}", open.repeat(deep), close.repeat(deep));
+    let cut = |said: String| {
+        // The offending line is 10,000 characters long and more.
+        said.lines()
+            .map(|l| if l.chars().count() > 120 { "  | (a long line)" } else { l })
+            .collect::<Vec<_>>()
+            .join("\n")
+    };
+    says!("deep_parentheses", cut(refused("1 - x", &wrap("(", ")"))));
+    says!("deep_minus", cut(refused("1 - x", &wrap("-", ""))));
+    says!("deep_not", cut(refused("far && seen", &format!("{}far", "!".repeat(deep)))));
+    says!("deep_sum", cut(refused("1 - x", &format!("{}1", "1+".repeat(deep)))));
+    says!("deep_if", cut(refused("1 - x", &wrap("if far { ", " } else { 0 }"))));
+    says!("deep_calls", cut(refused("1 - x", &wrap("abs(", ")"))));
+    says!("deep_lists", cut(refused("1 - x", &wrap("[", "]"))));
+    says!("deep_let", cut(refused("1 - x", &format!("{}x", "let q = x; ".repeat(deep)))));
+    says!("deep_ron", cut(refused("\"1 - x\"", &wrap("[", "]"))));
+    says!("deep_ron_unclosed", cut(refused("\"1 - x\"", &"(".repeat(deep))));
+    let guard = |open: &str, close: &str| {
+        cut(refused("\"far && seen\"", &format!("{}\"far\"{}", open.repeat(deep), close.repeat(deep))))
+    };
+    says!("deep_all", guard("All([", "])"));
+    says!("deep_any", guard("Any([", "])"));
+    says!("deep_ron_not", guard("Not(", ")"));
+    // Each name uses the next one, so the first to be looked at needs all of them.
+    let chain: String = (0..deep).map(|i| format!("\"n{i}\": \"n{} + x\",\n", i + 1)).collect();
+    let said = refused("\"near\":", &format!("{chain}\"n{deep}\": \"x\",\n\"near\":"));
+    says!("deep_names", said);
+}
+
+#[test]
+fn sizes() {
+    let inputs: String = (0..40).map(|i| format!("\"s{i}\": Bool(),\n        ")).collect();
+    says!("states_trillion", refused("\"far\":", &format!("{inputs}\"far\":")));
+    says!("states_levels", refused("Bool(),", "Int(from: 0, to: 1000000000000),"));
+    let doubling: String = (1..40).map(|i| format!("\"d{i}\": \"d{0} + d{0}\",\n        ", i - 1)).collect();
+    says!("value_too_large", refused("\"near\":", &format!("\"d0\": \"x\",\n        {doubling}\"near\":")));
+    says!("one_level", refused("{\"none\": 0, \"left\": 0.25, \"right\": 0.5}", "{\"none\": 0}"));
+    says!("range_backwards", refused("from: 0, to: 1", "from: 1, to: 0"));
+    says!("range_infinite", refused("from: 0, to: 1", "from: 0, to: inf"));
+    says!("inexact_code", refused("0.25", "0.1"));
+}
+
+#[test]
+fn files() {
+    says!("empty_file", refused_text(""));
+    says!("blank_file", refused_text("// nothing here\n"));
+    says!("not_utf8", refused_text(b"Table(\n    name: \"\xff\xfe\",\n)"));
+    let place = Place::new();
+    std::fs::create_dir(place.path("empty")).unwrap();
+    place.file("demo.ron", TABLE).file("rows.csv", ROWS);
+    let said = |command: &str| {
+        let said = place.run(command);
+        assert_eq!(said.code, Some(2), "{}", said.all());
+        assert_eq!(place.files(), ["demo.ron", "empty", "rows.csv"]);
+        said.all()
+    };
+    says!("missing_table", said("check other.ron"));
+    says!("missing_table_eval", said("eval other.ron --input rows.csv --output out.csv"));
+    says!("directory_without_tables", said("check empty"));
+    says!("directory_as_table", said("eval empty --input rows.csv --output out.csv"));
+    says!("directory_as_input", said("eval demo.ron --input empty --output out.csv"));
+    says!("missing_input", said("eval demo.ron --input none.csv --output out.csv"));
+    says!("output_in_missing_directory", said("eval demo.ron --input rows.csv --output nowhere/out.csv"));
+    says!("output_is_directory", said("eval demo.ron --input rows.csv --output empty"));
+    says!("output_below_file", said("eval demo.ron --input rows.csv --output demo.ron/out.csv"));
+    says!("usage_no_command", said("frobnicate"));
+    says!("usage_bad_option", said("eval demo.ron --precision f16"));
+}
+
+#[test]
+fn csv() {
+    says!("csv_missing_columns", rejected("rows.csv", "side,seen\nleft,\n"));
+    says!("csv_extra_column", rejected("rows.csv", "side,far,x,color\nleft,false,0.25,red\n"));
+    says!("csv_misspelt_column", rejected("rows.csv", "sid,far,x\nleft,false,0.25\n"));
+    says!("csv_column_twice", rejected("rows.csv", "side,far,x,side\nleft,false,0.25,left\n"));
+    says!("csv_ragged_short", rejected("rows.csv", "side,far,x\nleft,false,0.25\nleft,false\n"));
+    says!("csv_ragged_long", rejected("rows.csv", "side,far,x\nleft,false,0.25,1\n\nleft,false,0.25\n"));
+    says!("csv_empty", rejected("rows.csv", ""));
+    says!("csv_nan", rejected("rows.csv", "side,far,x\nleft,false,0.25\nleft,false,NaN\n"));
+    says!("csv_infinite", rejected("rows.csv", "side,far,x\nleft,false,inf\nleft,false,-inf\nleft,false,1e999\n"));
+    says!("csv_out_of_range", rejected("rows.csv", "side,far,x\nleft,false,1.5\n"));
+    says!("csv_unknown_level", rejected("rows.csv", "x,side,far\n0.5,\"lft\",false\n0.5,0.3,yes\n"));
+    says!("csv_no_number", rejected("rows.csv", "side,far,x\nleft,false,half\n"));
+    says!("csv_empty_cell", rejected("rows.csv", "side,far,x\nleft,,0.25\n"));
+    says!("csv_needs_fetched", rejected("rows.csv", "side,far,x,seen\nnone,true,0.25,true\nnone,true,0.25,\n"));
+    says!("csv_not_utf8", rejected("rows.csv", b"side,far,x\nl\xffft,false,0.25\n"));
+    says!("csv_unclosed_quote", rejected("rows.csv", "side,far,x\n\"left,false,0.25\nleft,false,0.25\n"));
+    let many = format!("side,far,x\n{}", "left,false,2\n".repeat(50));
+    let said = rejected("rows.csv", many);
+    assert_eq!(said.matches("is not in the range").count(), 20);
+    assert!(said.contains("and 30 more like these"), "{said}");
+}
+
+#[test]
+fn json() {
+    says!("json_malformed", rejected("rows.json", "[{\"side\": \"left\", \"far\": false, \"x\": 0.25}\n {}]"));
+    says!("json_no_array", rejected("rows.json", "{\"side\": \"left\", \"far\": false, \"x\": 0.25}"));
+    says!("json_no_object", rejected("rows.json", "[[\"left\", false, 0.25]]"));
+    says!("json_missing", rejected("rows.json", "[\n  {\n    \"side\": \"left\",\n    \"far\": false\n  }\n]"));
+    says!("json_unknown", rejected("rows.json", "[{\"side\": \"left\", \"far\": false, \"x\": 0.25, \"y\": 1}]"));
+    says!("json_twice", rejected("rows.json", "[{\"side\": \"left\", \"far\": false, \"x\": 0.25, \"x\": 1}]"));
+    says!("json_nan", rejected("rows.json", "[{\"side\": \"left\", \"far\": false, \"x\": NaN}]"));
+    says!("json_range", rejected("rows.json", "[\n{\"side\": \"left\", \"far\": false, \"x\": 1e400}]"));
+    says!("json_null", rejected("rows.json", "[{\"side\": \"left\", \"far\": null, \"x\": 0}]"));
+    says!("json_nested", rejected("rows.json", "[{\"side\": [\"left\"], \"far\": true, \"x\": 0}]"));
+    says!("json_needs_fetched", rejected("rows.json", "[{\"side\": \"none\", \"far\": true, \"x\": 0}]"));
+    says!("json_deep", rejected("rows.json", "[".repeat(10_000)).lines().take(3).collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn points() {
+    let place = Place::new();
+    place.file("demo.ron", TABLE);
+    let said = |at: &str| {
+        let said = place.run(&format!("explain demo.ron --at {at}"));
+        assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+        said.all()
+    };
+    says!("point_incomplete", said("side=left"));
+    says!("point_unknown", said("side=left,fr=true,x=0"));
+    says!("point_no_value", said("side=left,far,x=0"));
+    says!("point_level", said("side=up,far=true,x=0"));
+    says!("point_twice", said("side=left,far=true,x=0,far=false"));
+    says!("point_needs_fetched", said("side=none,far=true,x=0"));
+}
+
+#[cfg(not(feature = "gpu"))]
+#[test]
+fn no_gpu() {
+    let place = Place::new();
+    place.file("demo.ron", TABLE).file("rows.csv", ROWS);
+    let said = place.run("eval demo.ron --input rows.csv --output out.csv --executor gpu");
+    says!("no_gpu", said.all());
+    assert_eq!(place.files(), ["demo.ron", "rows.csv"]);
+}
+
+#[test]
+fn findings() {
+    let place = Place::new();
+    place.file("demo.ron", TABLE.replace("\"near\":", "\"lost\": \"x * 2\",\n        \"near\":"));
+    says!("finding_unused", place.run("check demo.ron").all());
+    says!("finding_unused_json", place.run("check demo.ron --message-format json").all());
+    let example = "value: \"1 - x\", examples: [({\"side\": none, \"far\": true, \"x\": 0.25, \"seen\": true}, 0.5)]";
+    place.file("demo.ron", TABLE.replace("value: \"1 - x\"", example));
+    says!("finding_example", place.run("check demo.ron").all());
+    let example = "value: \"1 - x\", examples: [({\"side\": left, \"far\": true, \"x\": 0.25, \"seen\": true}, 0.75)]";
+    place.file("demo.ron", TABLE.replace("value: \"1 - x\"", example));
+    says!("finding_example_of_another_case", place.run("check demo.ron").all());
+}

@@ -1,0 +1,16 @@
+//! The command: what it says, what it writes, and how it refuses.
+#![allow(clippy::unwrap_used)]
+
+mod atlas;
+mod bad_input;
+mod eval;
+mod explain;
+mod findings;
+mod functions;
+mod render;
+mod report;
+#[path = "../support/mod.rs"]
+mod support;
+mod tools;
+mod why;
+mod worked_values;

@@ -1,0 +1,13 @@
+//! The library without a command line and without a device.
+#![allow(clippy::unwrap_used)]
+
+mod batch;
+mod emitted_rust;
+mod generated;
+mod glslang;
+#[cfg(feature = "precise")]
+mod integrals;
+mod intervals;
+mod published_numbers;
+#[cfg(feature = "trial")]
+mod trial;

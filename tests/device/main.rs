@@ -1,0 +1,11 @@
+//! What runs on an adapter: shaders against the interpreter, techniques against each other, the tuner.
+#![allow(clippy::unwrap_used)]
+
+mod adapter;
+mod diff;
+mod shadow_agreement;
+#[path = "../support/mod.rs"]
+mod support;
+#[path = "../../benches/synthetic.rs"]
+mod synthetic;
+mod tuning;

@@ -1,0 +1,6 @@
+//! Documents, examples and build scripts do what they say.
+#![allow(clippy::unwrap_used)]
+
+mod build_script;
+mod documents;
+mod examples;
