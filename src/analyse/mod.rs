@@ -13,7 +13,6 @@ mod singular;
 #[cfg(feature = "trial")]
 pub mod trial;
 pub(crate) mod values;
-mod violations;
 mod words;
 
 use crate::diag::{Diagnostic, Severity, codes};
@@ -28,7 +27,6 @@ pub use findings::overlap::{Overlap, overlaps};
 pub use lints::{FINDINGS, Findings, Level, Levels};
 #[cfg(feature = "precise")]
 pub use singular::{Singularity, domain_points, singularities};
-pub use violations::{Violation, admissible, violations, violations_under};
 
 /// Analyses that look at a program as it is written.
 const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[

@@ -20,7 +20,6 @@ use std::fmt;
 use crate::diag::{Diagnostic, Failure, codes, fnv1a};
 use crate::program::{CondId, ExprId, InputId, Pool, Program};
 
-pub use crate::program::reachable;
 pub(crate) use crate::program::turn::renamed;
 pub use crate::prove::exact::{Counterexample, Proof, Refusal};
 pub use key::KeyLayout;

@@ -39,7 +39,10 @@ pub use pool::{
     BINARY_FUNCTIONS, BinaryOp, Comparison, Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool,
     TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp,
 };
+pub(crate) use reachable::can_occur;
 pub use reachable::reachable;
+#[cfg(test)]
+pub(crate) use reachable::with_too_many_paths;
 
 /// Number of an input, in the order declared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

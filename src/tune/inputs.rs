@@ -6,11 +6,10 @@
 
 use std::fmt;
 
-use crate::analyse::admissible;
 use crate::eval::Columns;
 use crate::points::random::Random;
 use crate::profile::Profile;
-use crate::program::{Assumption, Domain, Program, Value};
+use crate::program::{Domain, Program, Value, reachable};
 
 /// Threads of a coherent run: as many as run in step on most devices.
 const RUN: usize = 32;
@@ -55,8 +54,7 @@ pub(super) struct Source<'p> {
 
 impl<'p> Source<'p> {
     pub(super) fn new(program: &'p Program) -> Self {
-        let assumed: Vec<&Assumption> = program.assumptions.iter().collect();
-        let mut reachable = admissible(program, &assumed);
+        let mut reachable = reachable(program);
         if reachable.is_empty() {
             reachable = (0..program.states.count()).collect();
         }
@@ -163,5 +161,12 @@ mod tests {
         let random = source.rows(Kind::Random, 100, None, &profile);
         let different = (1..100).filter(|row| state(&random, *row) != state(&random, row - 1)).count();
         assert!(different > 80, "{different}");
+    }
+
+    /// A state that has too many paths may occur, so plans are measured in it.
+    #[test]
+    fn states_with_too_many_paths_are_drawn() {
+        let program = crate::program::with_too_many_paths();
+        assert_eq!(Source::new(&program).reachable, [0, 1]);
     }
 }

@@ -8,6 +8,7 @@ mod glslang;
 #[cfg(feature = "precise")]
 mod integrals;
 mod intervals;
+#[cfg(feature = "trial")]
 mod published_numbers;
 #[cfg(feature = "trial")]
 mod trial;

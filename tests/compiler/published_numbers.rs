@@ -3,8 +3,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use umbrage::analyse::{Violation, admissible, coverage, overlaps, violations, violations_under};
-use umbrage::program::{Assumption, Program};
+use umbrage::analyse::trial::{Violation, violations, violations_under};
+use umbrage::analyse::{coverage, overlaps};
+use umbrage::program::{Assumption, Program, reachable};
 
 fn smsr() -> Program {
     Program::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"))
@@ -61,8 +62,7 @@ fn states_and_those_that_no_case_claims() {
 #[test]
 fn states_that_occur() {
     for (program, admitted, occur) in [(smsr(), 148, 63), (rsmss(), 296, 126)] {
-        let all: Vec<_> = program.assumptions.iter().collect();
-        let states = admissible(&program, &all);
+        let states = reachable(&program);
         assert_eq!(states.len(), admitted);
         let entered = states.iter().filter(|state| {
             let get = |input| level(&program, **state, input);

@@ -4,6 +4,8 @@
 
 mod errata;
 mod mutate;
+mod violations;
 
 pub use errata::{errata, seeded};
 pub use mutate::{Mistake, Tally, survey};
+pub use violations::{Violation, violations, violations_under};

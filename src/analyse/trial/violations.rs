@@ -58,17 +58,3 @@ fn violation(
     });
     found
 }
-
-/// The states in which assumptions can hold, for some fetched and continuous inputs.
-pub fn admissible(program: &Program, assumed: &[&Assumption]) -> Vec<usize> {
-    let mut machine = Machine::new(program);
-    let mut can_hold = |state: &usize| {
-        machine.any_path(*state, |machine| {
-            match assumed.iter().all(|assumption| machine.holds(assumption.condition, View::PLAIN)) {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            }
-        })
-    };
-    (0..program.states.count()).filter(|state| can_hold(state)).collect()
-}
