@@ -2,7 +2,7 @@
 
 use image::{GrayImage, Luma};
 
-use crate::technique::revectorise::stage::Picture;
+use crate::scene::surfaces::Surfaces;
 
 /// The difference between two pictures of visibility.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,14 +24,14 @@ pub const NEAR: usize = 8;
 
 impl Region {
     /// All pixels that show a surface.
-    pub fn surfaces(picture: &Picture) -> Self {
-        Self { pixels: picture.points.iter().map(Option::is_some).collect() }
+    pub fn surfaces(surfaces: &Surfaces) -> Self {
+        Self { pixels: surfaces.points.iter().map(Option::is_some).collect() }
     }
 
     /// The pixels that show a surface within [`NEAR`] pixels of a true silhouette of a shadow on it.
-    pub fn silhouettes(picture: &Picture, truth: &[f32]) -> Self {
-        let (width, height) = (picture.width as usize, picture.height as usize);
-        let object = |pixel: usize| picture.points[pixel].as_ref().map(|point| point.object);
+    pub fn silhouettes(surfaces: &Surfaces, truth: &[f32]) -> Self {
+        let (width, height) = (surfaces.width as usize, surfaces.height as usize);
+        let object = |pixel: usize| surfaces.points[pixel].as_ref().map(|point| point.object);
         let on_silhouette = |pixel: usize| {
             let right = (pixel % width + 1 < width).then_some(pixel + 1);
             let below = (pixel + width < truth.len()).then_some(pixel + width);
@@ -52,7 +52,7 @@ impl Region {
                 })
                 .collect();
         }
-        let surfaces = Self::surfaces(picture).pixels;
+        let surfaces = Self::surfaces(surfaces).pixels;
         Self { pixels: grown.into_iter().zip(surfaces).map(|(near, surface)| near && surface).collect() }
     }
 
@@ -69,11 +69,11 @@ impl Region {
 }
 
 /// The difference of a technique from the truth, within a region.
-pub fn difference(picture: &Picture, value: &[f32], truth: &[f32], region: &Region) -> Difference {
+pub fn difference(surfaces: &Surfaces, value: &[f32], truth: &[f32], region: &Region) -> Difference {
     let square = |pixel: usize| f64::from(value[pixel] - truth[pixel]).powi(2);
     // The library compares whole pictures: outside of the region they are equal, and that is taken out again.
     let grey = |values: &[f32]| {
-        let mut image = GrayImage::new(picture.width, picture.height);
+        let mut image = GrayImage::new(surfaces.width, surfaces.height);
         for (index, pixel) in image.pixels_mut().enumerate() {
             let value = if region.pixels[index] { values[index] } else { truth[index] };
             *pixel = Luma([(value * 255.0).round() as u8]);

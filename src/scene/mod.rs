@@ -1,21 +1,22 @@
 //! Scenes: what is lit, by what, seen from where.
 //!
 //! A scene is a RON file; some come with Umbrage and are known by name. After
-//! reading there are triangles, one light and one camera, and nothing that a
+//! reading there are triangles, lights and one camera, and nothing that a
 //! renderer would have to check again.
 
+pub mod light;
 mod mesh;
 pub mod rays;
 mod read;
 mod shapes;
+pub mod surfaces;
 pub mod view;
 
 use std::path::Path;
 
-use glam::DVec3;
-
 use crate::diag::{Diagnostic, Failure, Source, codes};
-use crate::scene::view::{Camera, Light, View};
+use crate::scene::light::{Light, Lights, Punctual};
+use crate::scene::view::Camera;
 use crate::table;
 
 pub use shapes::Shape;
@@ -33,8 +34,8 @@ pub struct Scene {
     pub title: String,
     /// From where it is seen.
     pub camera: Camera,
-    /// Its light.
-    pub light: Light,
+    /// Its lights; at least one.
+    pub lights: Vec<Light>,
     /// The share of light that reaches shadows.
     pub ambient: f64,
     /// Colour of the background, linear.
@@ -118,13 +119,13 @@ impl Scene {
         self.objects.iter().enumerate().flat_map(|(index, object)| object.triangles.iter().map(move |t| (index, t)))
     }
 
-    /// The square of the world that the shadow map shows.
-    pub fn light_view(&self) -> View {
-        let corners = |casters_only: bool| -> Vec<DVec3> {
-            let objects = self.objects.iter().filter(|object| object.casts || !casters_only);
-            objects.flat_map(|object| object.triangles.iter().flat_map(|triangle| triangle.corners)).collect()
-        };
-        let (casts, all) = (corners(true), corners(false));
-        self.light.view(if casts.is_empty() { &all } else { &casts }, &all)
+    /// The first light without extent: the one that techniques on a shadow map take.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn punctual(&self, technique: &str) -> Result<Punctual, Failure> {
+        let lights = Lights::PUNCTUAL.of_scene(self, technique)?;
+        let missing = || Failure::bare("", Diagnostic::error(codes::SCENE, "the scene has no light without extent"));
+        lights.into_iter().find_map(Light::punctual).ok_or_else(missing)
     }
 }

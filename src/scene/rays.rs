@@ -16,7 +16,7 @@ use super::{Scene, Triangle};
 
 /// A scene that rays can be sent through.
 #[derive(Debug)]
-pub struct Tracer {
+pub struct Rays {
     bvh: CwBvh,
     /// In the order of the hierarchy.
     faces: Vec<obvhs::triangle::Triangle>,
@@ -43,7 +43,7 @@ pub struct SurfacePoint {
     pub(crate) triangle: u32,
 }
 
-impl Tracer {
+impl Rays {
     /// Builds the hierarchy of a scene.
     pub fn new(scene: &Scene) -> Self {
         let (objects, triangles): (Vec<u32>, Vec<Triangle>) =

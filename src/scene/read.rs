@@ -10,10 +10,11 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use serde::Deserialize;
 
+use super::light::{Directional, Light, Spot};
 use super::shapes::Shape;
 use super::shapes::letters;
 use super::shapes::solid::Triangle;
-use super::view::{Camera, Light};
+use super::view::Camera;
 use super::{Object, Scene, mesh};
 use crate::diag::{Diagnostic, Source, codes};
 use crate::text::raw::{Raw, Reader};
@@ -168,9 +169,15 @@ pub(super) fn scene(name: &str, source: &Arc<Source>, directory: &Path) -> std::
         keep(Diagnostic::error(codes::SCENE, "the scene is empty").help("list at least one object"));
     }
     match (camera, light, ambient, background) {
-        (Some(camera), Some(light), Some(ambient), Some(background)) if problems.is_empty() => {
-            Ok(Scene { name: name.to_owned(), title: ron.title, camera, light, ambient, background, objects })
-        }
+        (Some(camera), Some(light), Some(ambient), Some(background)) if problems.is_empty() => Ok(Scene {
+            name: name.to_owned(),
+            title: ron.title,
+            camera,
+            lights: vec![light],
+            ambient,
+            background,
+            objects,
+        }),
         _ => Err(problems),
     }
 }
@@ -261,7 +268,7 @@ impl<'a> Read<'a> {
                     let error = self.wrong(at, "the light has no direction");
                     return Err(error.help("say which way it goes, for instance (0.3, -1, 0.2)"));
                 }
-                Ok(Light::Directional { direction })
+                Ok(Light::Directional(Directional { direction, colour: [1.0; 3] }))
             }
             LightRon::Spot { position, target, angle } => {
                 let (place, aim) = (self.place(position)?, self.place(target)?);
@@ -269,7 +276,7 @@ impl<'a> Read<'a> {
                     let error = self.wrong(target, "the light points at its own place");
                     return Err(error.help("move `position` or `target`"));
                 }
-                Ok(Light::Spot { position: place, target: aim, angle: self.angle(angle)? })
+                Ok(Light::Spot(Spot { position: place, target: aim, angle: self.angle(angle)?, colour: [1.0; 3] }))
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Cameras and lights: where a place of the world is seen.
+//! Views: the map from the world to the square in which a camera or a light sees it.
 //!
 //! Matrices follow WebGPU: x and y from -1 to 1 with y up, depth from 0 (near) to 1.
 //! Rows of pictures and of shadow maps grow downwards, so v = (1 - y) / 2. They
@@ -16,25 +16,6 @@ pub struct Camera {
     pub target: DVec3,
     /// Angle of view from bottom to top, in degrees.
     pub angle: f64,
-}
-
-/// Where the light comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Light {
-    /// From so far away that all rays are parallel.
-    Directional {
-        /// The way the light goes.
-        direction: DVec3,
-    },
-    /// From a point, within a cone.
-    Spot {
-        /// Where it is.
-        position: DVec3,
-        /// What its axis points at.
-        target: DVec3,
-        /// Angle of the whole cone, in degrees.
-        angle: f64,
-    },
 }
 
 /// A map between the world and the square, or picture, that it is seen in.
@@ -89,72 +70,46 @@ impl Camera {
     }
 }
 
-impl Light {
-    /// The way the light goes at a place.
-    pub fn direction(&self, place: DVec3) -> DVec3 {
-        match self {
-            Light::Directional { direction } => direction.normalize(),
-            Light::Spot { position, .. } => (place - *position).normalize_or_zero(),
-        }
-    }
-
-    /// How bright the light is at a place, were there no shadow: 1, and less towards the border of a cone.
-    pub fn brightness(&self, place: DVec3) -> f64 {
-        match self {
-            Light::Directional { .. } => 1.0,
-            Light::Spot { position, target, angle } => {
-                let axis = (*target - *position).normalize_or_zero();
-                let off_axis = (place - *position).angle_between(axis).to_degrees() / (angle / 2.0);
-                // The last tenth of the cone fades.
-                ((1.0 - off_axis) / 0.1).clamp(0.0, 1.0)
-            }
-        }
-    }
-
-    /// The square that the shadow map shows. Everything that `casts` is in it, and depth spans `all`; a spot
-    /// light shows its cone.
-    pub(crate) fn view(&self, casts: &[DVec3], all: &[DVec3]) -> View {
-        match self {
-            Light::Directional { direction } => {
-                let forward = direction.normalize();
-                let look = glam::dcamera::rh::view::look_to_mat4(DVec3::ZERO, forward, up(forward));
-                let bounds = |points: &[DVec3]| {
-                    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-                    points.iter().map(|p| look.transform_point3(*p)).fold(start, |(lo, hi), p| (lo.min(p), hi.max(p)))
-                };
-                let (lo, hi) = bounds(casts);
-                let (far, near) = (bounds(all).0.z, bounds(all).1.z);
-                let centre = (lo + hi) / 2.0;
-                // A margin keeps silhouettes off the border, where runs end.
-                let half = 0.52 * (hi - lo).truncate().max_element().max(1e-6);
-                let slack = 0.01 * (near - far).max(half);
-                let project = glam::dcamera::rh::proj::directx::orthographic(
-                    centre.x - half,
-                    centre.x + half,
-                    centre.y - half,
-                    centre.y + half,
-                    -(near + slack),
-                    -(far - slack),
-                );
-                View::new(project * look, Origin::Far(forward))
-            }
-            Light::Spot { position, target, angle } => {
-                let forward = (*target - *position).normalize();
-                let look = glam::dcamera::rh::view::look_at_mat4(*position, *target, up(forward));
-                let depths = all.iter().map(|p| -look.transform_point3(*p).z);
-                let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(near, far), d| (near.min(d), far.max(d)));
-                let far = far.max(1e-3) * 1.01;
-                let near = (near * 0.99).clamp(0.02 * far, 0.9 * far);
-                let project = glam::dcamera::rh::proj::directx::perspective(angle.to_radians(), 1.0, near, far);
-                View::new(project * look, Origin::Point(*position))
-            }
-        }
-    }
-}
-
 impl View {
     fn new(matrix: DMat4, origin: Origin) -> Self {
         Self { matrix, inverse: matrix.inverse(), origin }
+    }
+
+    /// The square that parallel light sees: `casts` lies within it, and depth spans `all`.
+    pub(crate) fn along(direction: DVec3, casts: &[DVec3], all: &[DVec3]) -> Self {
+        let forward = direction.normalize();
+        let look = glam::dcamera::rh::view::look_to_mat4(DVec3::ZERO, forward, up(forward));
+        let bounds = |points: &[DVec3]| {
+            let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            points.iter().map(|p| look.transform_point3(*p)).fold(start, |(lo, hi), p| (lo.min(p), hi.max(p)))
+        };
+        let (lo, hi) = bounds(casts);
+        let (far, near) = (bounds(all).0.z, bounds(all).1.z);
+        let centre = (lo + hi) / 2.0;
+        // A margin keeps silhouettes off the border, where runs end.
+        let half = 0.52 * (hi - lo).truncate().max_element().max(1e-6);
+        let slack = 0.01 * (near - far).max(half);
+        let project = glam::dcamera::rh::proj::directx::orthographic(
+            centre.x - half,
+            centre.x + half,
+            centre.y - half,
+            centre.y + half,
+            -(near + slack),
+            -(far - slack),
+        );
+        Self::new(project * look, Origin::Far(forward))
+    }
+
+    /// The square that holds a cone of light, its angle in degrees; depth spans `all`.
+    pub(crate) fn cone(position: DVec3, target: DVec3, angle: f64, all: &[DVec3]) -> Self {
+        let forward = (target - position).normalize();
+        let look = glam::dcamera::rh::view::look_at_mat4(position, target, up(forward));
+        let depths = all.iter().map(|p| -look.transform_point3(*p).z);
+        let (near, far) = depths.fold((f64::INFINITY, 0.0_f64), |(near, far), d| (near.min(d), far.max(d)));
+        let far = far.max(1e-3) * 1.01;
+        let near = (near * 0.99).clamp(0.02 * far, 0.9 * far);
+        let project = glam::dcamera::rh::proj::directx::perspective(angle.to_radians(), 1.0, near, far);
+        Self::new(project * look, Origin::Point(position))
     }
 
     /// Where a place is seen: across and down from 0 to 1, and depth. `None` behind the viewer.
@@ -197,12 +152,11 @@ mod tests {
     fn rays_and_planes_agree_with_the_projection() {
         let corners = [DVec3::new(-1.0, 0.2, 0.5), DVec3::new(1.5, 0.0, 0.3), DVec3::new(0.1, 0.4, -2.0)];
         let all = [corners.as_slice(), &[DVec3::new(0.0, 2.0, 0.0)]].concat();
-        let lights = [
-            Light::Directional { direction: DVec3::new(0.3, -1.0, 0.2) },
-            Light::Spot { position: DVec3::new(2.0, 5.0, 1.0), target: DVec3::ZERO, angle: 50.0 },
+        let views = [
+            View::along(DVec3::new(0.3, -1.0, 0.2), &all, &all),
+            View::cone(DVec3::new(2.0, 5.0, 1.0), DVec3::ZERO, 50.0, &all),
         ];
-        for light in lights {
-            let view = light.view(&all, &all);
+        for view in views {
             let place = corners[0] * 0.2 + corners[1] * 0.5 + corners[2] * 0.3;
             let (uv, depth) = view.project(place).expect("in front");
             let plane = view.plane(corners).expect("not edge-on");

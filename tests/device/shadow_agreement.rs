@@ -138,9 +138,9 @@ fn scenes_are_decided_alike() {
     let settings = Settings::default();
     for name in Scene::names() {
         let scene = Scene::open(name).unwrap_or_else(|error| panic!("{error}"));
-        let stage = Stage::new(&scene);
+        let stage = Stage::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         let by_rays = stage.shadow_map(256, Bias::default());
-        let receivers = stage.receivers(&stage.picture(480, 270), 256);
+        let receivers = stage.receivers(&stage.surfaces(480, 270), 256);
         executors.compare(&gpu, name, &by_rays, &receivers, &settings, false);
 
         let raster = Raster::new(&gpu, &stage).unwrap_or_else(|error| panic!("{error}"));

@@ -2,7 +2,8 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec2, DVec3};
-use umbrage::scene::view::{Camera, Light, View};
+use umbrage::scene::light::{Punctual, Spot};
+use umbrage::scene::view::{Camera, View};
 use umbrage::scene::{Scene, Triangle};
 use umbrage::technique::revectorise::stage::Bias;
 use umbrage::technique::revectorise::{DEPTH_UNIT, max_slope};
@@ -44,10 +45,16 @@ pub(crate) struct Stage {
 
 impl Stage {
     /// What a camera sees in a picture of a size, and the light of a scene in a map of `texels` per side.
-    pub(crate) fn new(scene: &Scene, camera: &Camera, [width, height]: [u32; 2], texels: u32) -> Self {
-        let (position, direction, cone) = match scene.light {
-            Light::Directional { direction } => (DVec3::ZERO, direction.normalize(), 0.0),
-            Light::Spot { position, target, angle } => {
+    pub(crate) fn new(
+        scene: &Scene,
+        light: &Punctual,
+        camera: &Camera,
+        [width, height]: [u32; 2],
+        texels: u32,
+    ) -> Self {
+        let (position, direction, cone) = match *light {
+            Punctual::Directional(light) => (DVec3::ZERO, light.direction.normalize(), 0.0),
+            Punctual::Spot(Spot { position, target, angle, .. }) => {
                 (position, (target - position).normalize(), (angle / 2.0).to_radians())
             }
         };
@@ -70,8 +77,8 @@ impl Stage {
 }
 
 /// The corners of all faces.
-pub(crate) fn vertices(scene: &Scene) -> Vec<Vertex> {
-    let light = scene.light_view();
+pub(crate) fn vertices(scene: &Scene, light: &Punctual) -> Vec<Vertex> {
+    let light = light.view(scene);
     scene.triangles().flat_map(|(object, triangle)| face(&light, scene.objects[object].colour, triangle)).collect()
 }
 
@@ -116,7 +123,8 @@ mod tests {
     fn corners_lie_in_the_planes_of_their_faces() {
         for name in ["fence", "teapot"] {
             let scene = Scene::open(name).unwrap_or_else(|e| panic!("{e}"));
-            let seen = vertices(&scene);
+            let light = scene.punctual("test").unwrap_or_else(|error| panic!("{error}"));
+            let seen = vertices(&scene, &light);
             let mut checked = 0;
             for vertex in seen.iter().filter(|vertex| vertex.anchor[3] == 1.0) {
                 let [x, y, z, w] = vertex.light;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use umbrage::picture::sheet;
 use umbrage::scene::Scene;
+use umbrage::scene::light::Punctual;
 use umbrage::technique::revectorise::{Settings, Technique};
 use wgpu::util::DeviceExt;
 
@@ -32,6 +33,7 @@ type Key = (Technique, usize, bool);
 pub(crate) struct Renderer {
     pub(crate) gpu: Gpu,
     scene: Scene,
+    light: Punctual,
     texels: u32,
     corners: wgpu::Buffer,
     corner_count: u32,
@@ -69,7 +71,8 @@ impl Renderer {
         if texels + 2 > most {
             return Err(format!("error: a shadow map has at most {} texels per side on {}", most - 2, gpu.name()));
         }
-        let vertices = vertices(scene);
+        let light = scene.punctual("wgpu-shadows").map_err(|error| error.to_string())?;
+        let vertices = vertices(scene, &light);
         let bytes: &[u8] = bytemuck::cast_slice(&vertices);
         if bytes.len() as u64 > device.limits().max_buffer_size {
             return Err(format!("error: the scene has too many triangles for {}", gpu.name()));
@@ -117,6 +120,7 @@ impl Renderer {
         let renderer = Self {
             corner_count: vertices.len() as u32,
             scene: scene.clone(),
+            light,
             light_passes: HashMap::new(),
             tables: Tables::built(),
             gpu,
@@ -241,7 +245,7 @@ impl Renderer {
     }
 
     fn write_stage(&self, view: &View) {
-        let stage = Stage::new(&self.scene, &view.camera(), self.picture.size, self.texels);
+        let stage = Stage::new(&self.scene, &self.light, &view.camera(), self.picture.size, self.texels);
         self.gpu.queue.write_buffer(&self.stage, 0, bytemuck::bytes_of(&stage));
     }
 

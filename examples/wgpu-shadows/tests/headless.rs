@@ -80,8 +80,8 @@ fn pictures_are_those_of_the_reference() {
             return;
         };
         let scene = Scene::open(scene).unwrap();
-        let stage = Stage::new(&scene);
-        let (picture, map) = (stage.picture(320, 180), stage.shadow_map(128, Bias::default()));
+        let stage = Stage::new(&scene).unwrap_or_else(|error| panic!("{error}"));
+        let (picture, map) = (stage.surfaces(320, 180), stage.shadow_map(128, Bias::default()));
         let receivers = stage.receivers(&picture, 128);
         let frame = Frame { map: &map, receivers: &receivers, settings: &Settings::default() };
         let program = cpu::table(technique).unwrap();

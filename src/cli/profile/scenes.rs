@@ -36,9 +36,9 @@ pub(super) fn run(arguments: &Count, report: &Report) -> Result<(Program, Profil
     let mut profile = Profile::new(&program);
     let (width, height) = arguments.size;
     for (name, scene) in &scenes {
-        let stage = Stage::new(scene);
+        let stage = Stage::new(scene)?;
         let map = stage.shadow_map(arguments.shadow_map, Bias::default());
-        let receivers = stage.receivers(&stage.picture(width, height), arguments.shadow_map);
+        let receivers = stage.receivers(&stage.surfaces(width, height), arguments.shadow_map);
         let settings = Settings { search_limit: arguments.search_limit, ..Settings::default() };
         let frame = Frame { map: &map, receivers: &receivers, settings: &settings };
         let name = std::path::Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();

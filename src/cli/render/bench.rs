@@ -66,7 +66,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
     let subjects = bench::subjects(&proved[0], &proved[1]);
     let settings = Settings { search_limit: arguments.search_limit, ..Settings::default() };
     let protocol = Protocol { warm_up: arguments.warm_up, rounds: arguments.rounds };
-    let stage = Stage::new(&scene);
+    let stage = Stage::new(&scene)?;
     let raster = Raster::new(&gpu, &stage)?;
     let mut out = io::stdout().lock();
     for &size in &arguments.shadow_map {

@@ -26,10 +26,11 @@ use crate::picture::sheet;
 use crate::picture::sheet::{CaseCount, Entry};
 use crate::program::Program;
 use crate::scene::Scene;
+use crate::scene::surfaces::Surfaces;
 use crate::technique::executor::Executor;
 use crate::technique::revectorise::reference;
 use crate::technique::revectorise::reference::Samples;
-use crate::technique::revectorise::stage::{Picture, Stage};
+use crate::technique::revectorise::stage::Stage;
 use crate::technique::revectorise::{Receivers, ShadowMap, Technique, Visibility, cpu};
 use crate::technique::shade;
 
@@ -91,8 +92,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let (width, height) = arguments.size;
     let progress = Progress::new(u64::from(height) * (techniques.len() as u64 + 4));
     progress.begin("camera");
-    let stage = Stage::new(&scene);
-    let picture = stage.picture(width, height);
+    let stage = Stage::new(&scene)?;
+    let picture = stage.surfaces(width, height);
     progress.advance(u64::from(height));
     progress.begin("shadow map");
     let map_size = if needs_device { arguments.shadow_map } else { 1 };
@@ -167,7 +168,7 @@ fn format_of(path: &Path) -> Option<ImageFormat> {
 /// A frame that techniques answer.
 struct Frame<'a> {
     stage: &'a Stage<'a>,
-    picture: &'a Picture,
+    picture: &'a Surfaces,
     map: &'a ShadowMap,
     receivers: &'a Receivers,
 }
@@ -193,7 +194,7 @@ impl Frame<'_> {
 fn draw(
     arguments: &Arguments,
     stage: &Stage<'_>,
-    picture: &Picture,
+    picture: &Surfaces,
     program: Option<&Program>,
     answers: &[Answer],
 ) -> std::result::Result<Vec<u8>, Failure> {

@@ -120,8 +120,8 @@ fn measure(arguments: &Arguments, scenes: &[Scene], executor: &Executor) -> std:
     let mut rows = Vec::new();
     for scene in scenes {
         progress.begin(&format!("{}, reference", scene.name));
-        let stage = Stage::new(scene);
-        let picture = stage.picture(width, height);
+        let stage = Stage::new(scene)?;
+        let picture = stage.surfaces(width, height);
         let advance = |steps| progress.advance(steps);
         let truth = reference::visibility(&stage, &picture, Samples::default(), &advance);
         let (all, near) = (Region::surfaces(&picture), Region::silhouettes(&picture, &truth));

@@ -34,7 +34,7 @@ pub(super) fn measure(
     let mut frames = Vec::new();
     for name in &arguments.scene {
         let scene = Scene::open(name)?;
-        let stage = Stage::new(&scene);
+        let stage = Stage::new(&scene)?;
         let raster = Raster::new(gpu, &stage)?;
         let map = raster.shadow_map(size, Bias::default())?;
         let frame = GpuFrame::new(gpu, &map, &raster.picture(width, height, size)?.receivers)?;

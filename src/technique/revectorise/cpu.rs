@@ -75,9 +75,9 @@ impl Decision {
 /// use umbrage::technique::revectorise::{Settings, Technique};
 ///
 /// let scene = Scene::open("slope")?;
-/// let stage = Stage::new(&scene);
+/// let stage = Stage::new(&scene)?;
 /// let map = stage.shadow_map(64, Bias::default());
-/// let receivers = stage.receivers(&stage.picture(32, 18), map.size);
+/// let receivers = stage.receivers(&stage.surfaces(32, 18), map.size);
 /// let frame = Frame { map: &map, receivers: &receivers, settings: &Settings::default() };
 /// let program = cpu::table(Technique::Smsr)?;
 /// let visibility = cpu::visibility(Technique::Smsr, program.as_ref(), frame, &|_| {})?;

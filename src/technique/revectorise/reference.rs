@@ -9,8 +9,9 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::stage::{Picture, Stage};
+use super::stage::Stage;
 use crate::scene::rays::SurfacePoint;
+use crate::scene::surfaces::Surfaces;
 use crate::scene::view::View;
 
 /// How many samples a pixel gets.
@@ -32,12 +33,12 @@ impl Default for Samples {
 const SETTLED: f32 = 0.4 / 255.0;
 
 /// The visibility of every pixel. `done` is told about every row, twice.
-pub fn visibility(stage: &Stage<'_>, picture: &Picture, samples: Samples, done: &(dyn Fn(u64) + Sync)) -> Vec<f32> {
-    let width = picture.width as usize;
+pub fn visibility(stage: &Stage<'_>, surfaces: &Surfaces, samples: Samples, done: &(dyn Fn(u64) + Sync)) -> Vec<f32> {
+    let width = surfaces.width as usize;
     let sampler = Sampler {
         stage,
-        view: stage.scene.camera.view(picture.width, picture.height),
-        size: [f64::from(picture.width), f64::from(picture.height)],
+        view: stage.scene.camera.view(surfaces.width, surfaces.height),
+        size: [f64::from(surfaces.width), f64::from(surfaces.height)],
     };
     let rows = |value: &(dyn Fn(usize) -> f32 + Sync)| -> Vec<f32> {
         let row = |y: usize| {
@@ -45,10 +46,10 @@ pub fn visibility(stage: &Stage<'_>, picture: &Picture, samples: Samples, done: 
             done(1);
             values
         };
-        (0..picture.height as usize).into_par_iter().flat_map_iter(row).collect()
+        (0..surfaces.height as usize).into_par_iter().flat_map_iter(row).collect()
     };
     // A few samples tell whether a silhouette is anywhere near.
-    let coarse = rows(&|pixel| match &picture.points[pixel] {
+    let coarse = rows(&|pixel| match &surfaces.points[pixel] {
         Some(point) => {
             let mut tally = Tally::default();
             sampler.count(&mut tally, point, pixel, 0..5);
@@ -59,16 +60,16 @@ pub fn visibility(stage: &Stage<'_>, picture: &Picture, samples: Samples, done: 
     let is_near = |pixel: usize| {
         let (x, y) = (pixel % width, pixel / width);
         let same_object = |other: usize| {
-            let object = |pixel: usize| picture.points[pixel].as_ref().map(|point| point.object);
+            let object = |pixel: usize| surfaces.points[pixel].as_ref().map(|point| point.object);
             object(other) == object(pixel)
         };
-        let (right, below) = ((x + 1).min(width - 1), (y + 1).min(picture.height as usize - 1));
+        let (right, below) = ((x + 1).min(width - 1), (y + 1).min(surfaces.height as usize - 1));
         let around =
             (y.saturating_sub(1)..=below).flat_map(|y| (x.saturating_sub(1)..=right).map(move |x| y * width + x));
         let mut around = around.filter(|other| same_object(*other));
         !matches!(coarse[pixel], 0.0 | 1.0) || around.any(|other| coarse[other] != coarse[pixel])
     };
-    rows(&|pixel| match &picture.points[pixel] {
+    rows(&|pixel| match &surfaces.points[pixel] {
         Some(point) if is_near(pixel) => sampler.settled(point, pixel, samples),
         _ => coarse[pixel],
     })
@@ -126,10 +127,10 @@ impl Sampler<'_> {
         let term = |step: f64| (0.5 + f64::from(index) * step).fract();
         let (dx, dy) = (term(0.754_877_666_246_692_8), term(0.569_840_290_998_053_3));
         let ray = self.view.ray((x as f64 + dx) / self.size[0], (y as f64 + dy) / self.size[1]);
-        let on_triangle = self.stage.tracer.point_on(point.triangle, ray).filter(|at| self.stage.tracer.is_inside(at));
+        let on_triangle = self.stage.rays.point_on(point.triangle, ray).filter(|at| self.stage.rays.is_inside(at));
         let at = match on_triangle {
             Some(at) => at,
-            None => self.stage.tracer.see(ray)?,
+            None => self.stage.rays.see(ray)?,
         };
         (at.object == point.object && self.stage.faces_light(&at)).then_some(at)
     }

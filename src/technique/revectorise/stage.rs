@@ -5,9 +5,12 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::{DEPTH_UNIT, Receiver, ReceiverKind, Receivers, ShadowMap, fixed_depth, max_slope};
+use crate::diag::Failure;
 use crate::scene::Scene;
-use crate::scene::rays::{SurfacePoint, Tracer};
-use crate::scene::view::{Light, Plane, View};
+use crate::scene::light::Punctual;
+use crate::scene::rays::{Rays, SurfacePoint};
+use crate::scene::surfaces::Surfaces;
+use crate::scene::view::{Plane, View};
 
 /// What is added to the depths of a shadow map, so that a surface does not shadow itself.
 ///
@@ -27,24 +30,15 @@ impl Default for Bias {
     }
 }
 
-/// What a camera sees: for each pixel the point of the surface at its centre.
-#[derive(Debug, Clone)]
-pub struct Picture {
-    /// Pixels per row.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// Row by row from the top; `None` where the background is seen.
-    pub points: Vec<Option<SurfacePoint>>,
-}
-
 /// A scene with everything that its passes share.
 #[derive(Debug)]
 pub struct Stage<'s> {
     /// The scene.
     pub scene: &'s Scene,
     /// What rays are sent through.
-    pub tracer: Tracer,
+    pub rays: Rays,
+    /// The light that has a shadow map.
+    pub light: Punctual,
     /// What the light sees.
     pub light_view: View,
     /// The plane of each triangle over the light's square; `None` if it is seen edge-on.
@@ -52,25 +46,20 @@ pub struct Stage<'s> {
 }
 
 impl<'s> Stage<'s> {
-    /// Prepares a scene.
-    pub fn new(scene: &'s Scene) -> Self {
-        let (tracer, light_view) = (Tracer::new(scene), scene.light_view());
-        let planes = tracer.triangles().iter().map(|triangle| light_view.plane(triangle.corners)).collect();
-        Self { scene, tracer, light_view, planes }
+    /// Prepares a scene and the first of its lights that a shadow map can show.
+    ///
+    /// # Errors
+    /// When there is no such light.
+    pub fn new(scene: &'s Scene) -> Result<Self, Failure> {
+        let light = scene.punctual("shadow map")?;
+        let (rays, light_view) = (Rays::new(scene), light.view(scene));
+        let planes = rays.triangles().iter().map(|triangle| light_view.plane(triangle.corners)).collect();
+        Ok(Self { scene, rays, light, light_view, planes })
     }
 
-    /// What the camera sees.
-    pub fn picture(&self, width: u32, height: u32) -> Picture {
-        let view = self.scene.camera.view(width, height);
-        let across = f64::from(width);
-        let down = f64::from(height);
-        let row = |y: u32| (0..width).map(move |x| (f64::from(x) + 0.5, f64::from(y) + 0.5));
-        let points = (0..height)
-            .into_par_iter()
-            .flat_map_iter(row)
-            .map(|(x, y)| self.tracer.see(view.ray(x / across, y / down)))
-            .collect();
-        Picture { width, height, points }
+    /// The surfaces that the camera sees.
+    pub fn surfaces(&self, width: u32, height: u32) -> Surfaces {
+        Surfaces::new(self.scene, &self.rays, width, height)
     }
 
     /// What the light sees, one depth per texel, at the texel's centre.
@@ -79,7 +68,7 @@ impl<'s> Stage<'s> {
         let depth = |index: u64| {
             let x = ((index % u64::from(size)) as f64 + 0.5) * texel;
             let y = ((index / u64::from(size)) as f64 + 0.5) * texel;
-            let Some(number) = self.tracer.first(self.light_view.ray(x, y)) else { return 1.0 };
+            let Some(number) = self.rays.first(self.light_view.ray(x, y)) else { return 1.0 };
             // Edge-on triangles are met by rounding only.
             let Some(plane) = self.planes[number as usize] else { return 1.0 };
             let slope = (plane.du.abs().max(plane.dv.abs()) * texel) as f32;
@@ -89,14 +78,14 @@ impl<'s> Stage<'s> {
         ShadowMap { size, depth: (0..u64::from(size) * u64::from(size)).into_par_iter().map(depth).collect() }
     }
 
-    /// Where the points of a picture lie in a shadow map of a size.
-    pub fn receivers(&self, picture: &Picture, size: u32) -> Receivers {
+    /// Where the points of surfaces lie in a shadow map of a size.
+    pub fn receivers(&self, surfaces: &Surfaces, size: u32) -> Receivers {
         let receiver = |point: &Option<SurfacePoint>| match point {
             Some(point) => self.receiver(point, size),
             None => Receiver::default(),
         };
-        let points = picture.points.par_iter().map(receiver).collect();
-        Receivers { width: picture.width, height: picture.height, points }
+        let points = surfaces.points.par_iter().map(receiver).collect();
+        Receivers { width: surfaces.width, height: surfaces.height, points }
     }
 
     fn receiver(&self, point: &SurfacePoint, size: u32) -> Receiver {
@@ -126,7 +115,7 @@ impl<'s> Stage<'s> {
 
     /// Whether the side of a surface that is seen is the one that the light could reach.
     pub(crate) fn faces_light(&self, point: &SurfacePoint) -> bool {
-        point.normal.dot(self.scene.light.direction(point.place)) < 0.0
+        point.normal.dot(self.light.direction(point.place)) < 0.0
     }
 
     /// Whether a point is in the light, were shadows perfect.
@@ -134,10 +123,6 @@ impl<'s> Stage<'s> {
         if !self.faces_light(point) {
             return false;
         }
-        let distance = match self.scene.light {
-            Light::Directional { .. } => f64::INFINITY,
-            Light::Spot { position, .. } => (position - point.place).length(),
-        };
-        self.tracer.sees_light(point, -self.scene.light.direction(point.place), distance)
+        self.rays.sees_light(point, -self.light.direction(point.place), self.light.distance(point.place))
     }
 }

@@ -1,7 +1,8 @@
 use super::reference::{self, Samples};
-use super::stage::{Bias, Picture, Stage};
+use super::stage::{Bias, Stage};
 use super::{Receivers, Settings, ShadowMap, Technique, Visibility, cpu};
 use crate::scene::Scene;
+use crate::scene::surfaces::Surfaces;
 
 fn built_in(name: &str) -> Scene {
     Scene::open(name).unwrap_or_else(|e| panic!("{e}"))
@@ -15,7 +16,7 @@ fn seen(technique: Technique, map: &ShadowMap, receivers: &Receivers) -> Visibil
 }
 
 /// Root of the mean squared difference over the pixels that show a surface.
-fn error(picture: &Picture, values: &[f32], truth: &[f32]) -> f32 {
+fn error(picture: &Surfaces, values: &[f32], truth: &[f32]) -> f32 {
     let shown = |pixel: &usize| picture.points[*pixel].is_some();
     let squares: Vec<f32> =
         (0..values.len()).filter(shown).map(|pixel| (values[pixel] - truth[pixel]).powi(2)).collect();
@@ -26,8 +27,8 @@ fn error(picture: &Picture, values: &[f32], truth: &[f32]) -> f32 {
 fn every_technique_renders_every_scene() {
     for name in Scene::names() {
         let scene = built_in(name);
-        let stage = Stage::new(&scene);
-        let picture = stage.picture(160, 90);
+        let stage = Stage::new(&scene).expect("a light");
+        let picture = stage.surfaces(160, 90);
         let map = stage.shadow_map(256, Bias::default());
         let receivers = stage.receivers(&picture, 256);
         let truth = reference::visibility(&stage, &picture, Samples { first: 16, most: 64 }, &|_| ());
@@ -54,8 +55,8 @@ fn every_technique_renders_every_scene() {
 fn twice_the_samples_change_nothing_that_could_be_seen() {
     for name in ["fence", "teapot"] {
         let scene = built_in(name);
-        let stage = Stage::new(&scene);
-        let picture = stage.picture(96, 54);
+        let stage = Stage::new(&scene).expect("a light");
+        let picture = stage.surfaces(96, 54);
         let samples = Samples::default();
         let twice = Samples { first: 2 * samples.first, most: 2 * samples.most };
         let [once, twice] = [samples, twice].map(|s| reference::visibility(&stage, &picture, s, &|_| ()));

@@ -10,7 +10,8 @@ use wgpu::util::DeviceExt;
 use super::frame::{check_map, check_picture};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::gpu::Gpu;
-use crate::scene::view::{Light, View};
+use crate::scene::light::Punctual;
+use crate::scene::view::View;
 use crate::technique::revectorise::stage::{Bias, Stage};
 use crate::technique::revectorise::{DEPTH_UNIT, Receiver, ReceiverKind, Receivers, ShadowMap, max_slope};
 
@@ -116,7 +117,7 @@ impl<'g, 's> Raster<'g, 's> {
 
     /// The corners of all faces, for a picture.
     fn vertices(&self, camera: &View) -> Vec<f32> {
-        let triangles = self.stage.tracer.triangles();
+        let triangles = self.stage.rays.triangles();
         let mut words = Vec::with_capacity(3 * WORDS * triangles.len());
         for triangle in triangles {
             let corners = triangle.corners;
@@ -145,9 +146,9 @@ impl<'g, 's> Raster<'g, 's> {
         let nearest = anchors.min_by(|a, b| (a.1 - 0.5).abs().total_cmp(&(b.1 - 0.5).abs()));
         let Some((place, depth)) = nearest else { return ([0.0; 4], [0.0; 2]) };
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        let to_light = match self.stage.scene.light {
-            Light::Directional { direction } => -direction,
-            Light::Spot { position, .. } => position - corners[0],
+        let to_light = match self.stage.light {
+            Punctual::Directional(light) => -light.direction,
+            Punctual::Spot(light) => light.position - corners[0],
         };
         let to_eye = self.stage.scene.camera.eye - corners[0];
         let facing = normal.dot(to_light) * normal.dot(to_eye) > 0.0;
