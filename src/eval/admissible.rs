@@ -28,7 +28,8 @@ use std::cell::{Cell, RefCell};
 
 use super::interval::Interval;
 use super::{Interpreter, NeedsFetch};
-use crate::program::{BinaryOp, Cond, CondId, ExprId, InputId, InputSet, Node, Program, UnaryOp, Value};
+use crate::program::operators::Image;
+use crate::program::{BinaryOp, Cond, CondId, ExprId, InputId, InputSet, Node, Program, Value};
 
 /// Most evaluations that are followed at one point.
 const MAX_FORKS: usize = 512;
@@ -282,12 +283,7 @@ impl<'p> IntervalInterpreter<'p> {
             Node::Unary(op, a) => {
                 let a = self.number(a)?;
                 let image = Interval::unary(op, a);
-                match op {
-                    UnaryOp::Ceil | UnaryOp::Floor | UnaryOp::Round | UnaryOp::Sign | UnaryOp::Trunc => {
-                        self.jump(expr, image)
-                    }
-                    _ => Ok(image),
-                }
+                if op.row().image == Image::Steps { self.jump(expr, image) } else { Ok(image) }
             }
             Node::Binary(op, a, b) => {
                 let image = Interval::binary(op, self.number(a)?, self.number(b)?);

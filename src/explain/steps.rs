@@ -4,7 +4,8 @@ use std::collections::{HashMap, HashSet};
 
 use super::Witness;
 use crate::eval::NeedsFetch;
-use crate::program::{BINARY_FUNCTIONS, BinaryOp, ExprId, Node, Real, TERNARY_FUNCTIONS, UNARY_FUNCTIONS, UnaryOp};
+use crate::program::operators::Notation;
+use crate::program::{ExprId, Node, Real};
 use crate::show;
 
 /// One operation of a computation.
@@ -137,21 +138,17 @@ impl<T: Real> Steps<'_, '_, T> {
 
 /// An operation on operands that are single words.
 fn written(node: Node, operands: &[String]) -> String {
-    fn name<O: PartialEq>(names: &'static [(&'static str, O)], op: &O) -> &'static str {
-        names.iter().find(|(_, o)| o == op).map_or("?", |(name, _)| name)
-    }
     let infix = |symbol: &str| operands.join(&format!(" {symbol} "));
-    let call = |name: &str| format!("{name}({})", operands.join(", "));
+    let form = |notation: Notation| match notation {
+        Notation::Function(..) => format!("{}({})", notation.name(), operands.join(", ")),
+        // In parentheses, as the operand may be a negative number.
+        Notation::Prefix(symbol) => format!("{}({})", symbol.symbol(), operands.join(", ")),
+        Notation::Infix(symbol) => infix(symbol.symbol()),
+    };
     match node {
-        Node::Unary(UnaryOp::Negate, _) => format!("-({})", operands.join(", ")),
-        Node::Unary(op, _) => call(name(&UNARY_FUNCTIONS, &op)),
-        Node::Binary(BinaryOp::Add, ..) => infix("+"),
-        Node::Binary(BinaryOp::Subtract, ..) => infix("-"),
-        Node::Binary(BinaryOp::Multiply, ..) => infix("*"),
-        Node::Binary(BinaryOp::Divide, ..) => infix("/"),
-        Node::Binary(BinaryOp::Remainder, ..) => infix("%"),
-        Node::Binary(op, ..) => call(name(&BINARY_FUNCTIONS, &op)),
-        Node::Ternary(op, ..) => call(name(&TERNARY_FUNCTIONS, &op)),
+        Node::Unary(op, _) => form(op.row().notation),
+        Node::Binary(op, ..) => form(op.row().notation),
+        Node::Ternary(op, ..) => form(op.row().notation),
         Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => infix(","),
     }
 }

@@ -19,6 +19,7 @@ mod domain;
 pub mod draw;
 mod lower;
 pub(crate) mod normal;
+pub mod operators;
 mod ops;
 mod pool;
 pub mod print;
@@ -34,11 +35,9 @@ use crate::table::{Allow, Erratum, HitPolicy, Table};
 
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 pub use lower::LevelTerm;
+pub use operators::{BinaryOp, TernaryOp, UnaryOp};
 pub use ops::Real;
-pub use pool::{
-    BINARY_FUNCTIONS, BinaryOp, Comparison, Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool,
-    TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp,
-};
+pub use pool::{Comparison, Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool};
 pub(crate) use reachable::can_occur;
 pub use reachable::reachable;
 #[cfg(test)]

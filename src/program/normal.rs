@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, HashMap};
 use num_rational::Ratio;
 use num_traits::{CheckedAdd, CheckedMul, Signed, Zero};
 
+use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
 use super::{BinaryOp, ExprId, InputId, Node, Pool, TernaryOp, UnaryOp};
 
 pub(crate) type Rational = Ratio<i128>;
@@ -107,42 +108,42 @@ impl Normaliser {
             Node::Result | Node::Select(..) => None,
             Node::Unary(op, a) => {
                 let form = self.get(pool, a)?;
-                match op {
-                    UnaryOp::Negate => scale(&form, -one()),
-                    UnaryOp::Abs => maximum(form.clone(), scale(&form, -one())?),
-                    UnaryOp::Saturate => maximum(minimum(form, constant(1.0))?, constant(0.0)),
-                    _ => Some(single(Term::Unary(op, self.intern(form)))),
+                match op.row().algebra {
+                    UnaryAlgebra::Negate => scale(&form, -one()),
+                    UnaryAlgebra::Absolute => maximum(form.clone(), scale(&form, -one())?),
+                    UnaryAlgebra::Saturate => maximum(minimum(form, constant(1.0))?, constant(0.0)),
+                    UnaryAlgebra::Opaque => Some(single(Term::Unary(op, self.intern(form)))),
                 }
             }
             Node::Binary(op, a, b) => {
                 let (left, right) = (self.get(pool, a)?, self.get(pool, b)?);
-                match op {
-                    BinaryOp::Add => sum(&left, &right),
-                    BinaryOp::Subtract => sum(&left, &scale(&right, -one())?),
-                    BinaryOp::Multiply => self.product(left, right),
-                    BinaryOp::Divide => match value(&right) {
+                match op.row().algebra {
+                    BinaryAlgebra::Sum => sum(&left, &right),
+                    BinaryAlgebra::Difference => sum(&left, &scale(&right, -one())?),
+                    BinaryAlgebra::Product => self.product(left, right),
+                    BinaryAlgebra::Quotient => match value(&right) {
                         Some(divisor) if !divisor.is_zero() => scale(&left, divisor.recip()),
                         _ => Some(self.opaque(op, left, right)),
                     },
-                    BinaryOp::Min => minimum(left, right),
-                    BinaryOp::Max => maximum(left, right),
-                    _ => Some(self.opaque(op, left, right)),
+                    BinaryAlgebra::Minimum => minimum(left, right),
+                    BinaryAlgebra::Maximum => maximum(left, right),
+                    BinaryAlgebra::Opaque => Some(self.opaque(op, left, right)),
                 }
             }
             Node::Ternary(op, a, b, c) => {
                 let (x, y, z) = (self.get(pool, a)?, self.get(pool, b)?, self.get(pool, c)?);
-                match op {
-                    TernaryOp::Clamp => minimum(maximum(x, y)?, z),
-                    TernaryOp::Fma => {
+                match op.row().algebra {
+                    TernaryAlgebra::Clamp => minimum(maximum(x, y)?, z),
+                    TernaryAlgebra::ProductAndSum => {
                         let product = self.product(x, y)?;
                         sum(&product, &z)
                     }
-                    TernaryOp::Mix => {
+                    TernaryAlgebra::Mix => {
                         let rest = sum(&constant(1.0), &scale(&z, -one())?)?;
                         let (first, second) = (self.product(x, rest)?, self.product(y, z)?);
                         sum(&first, &second)
                     }
-                    TernaryOp::Smoothstep => {
+                    TernaryAlgebra::Opaque => {
                         let ids = [self.intern(x), self.intern(y), self.intern(z)];
                         Some(single(Term::Ternary(op, ids)))
                     }

@@ -1,4 +1,5 @@
-//! What each operation means, in `f64` and in `f32`.
+//! Evaluation of operations in `f64` and in `f32`, and the arithmetic that the
+//! table of operators names but no library has.
 //!
 //! The `f32` meaning is the exact result rounded to nearest. Basic operations
 //! are that by IEEE 754; the others are computed in `f64` (by the portable
@@ -8,7 +9,8 @@
 //! leaves open which zero they return of two, and it differs between machines
 //! and between scalar and vector code. Here it is the first operand.
 
-use super::pool::{BinaryOp, Comparison, TernaryOp, UnaryOp};
+use super::operators::{BinaryOp, TernaryOp, UnaryOp};
+use super::pool::Comparison;
 
 /// A floating-point type that programs can be evaluated in.
 pub trait Real: Copy + PartialOrd + std::fmt::Debug + 'static {
@@ -46,7 +48,7 @@ impl TernaryOp {
 }
 
 impl Comparison {
-    /// Whether the comparison holds; never, if an operand is NaN.
+    /// Returns whether the comparison holds; never, if an operand is NaN.
     pub fn holds<T: PartialOrd>(self, a: T, b: T) -> bool {
         match self {
             Comparison::Less => a < b,
@@ -58,13 +60,13 @@ impl Comparison {
 
 /// The larger number; the first of equal ones, and the other one of a NaN.
 #[inline]
-fn larger<T: PartialOrd>(a: T, b: T) -> T {
+pub(super) fn larger<T: PartialOrd>(a: T, b: T) -> T {
     if b > a || is_nan(&a) { b } else { a }
 }
 
 /// The smaller number; the first of equal ones, and the other one of a NaN.
 #[inline]
-fn smaller<T: PartialOrd>(a: T, b: T) -> T {
+pub(super) fn smaller<T: PartialOrd>(a: T, b: T) -> T {
     if b < a || is_nan(&a) { b } else { a }
 }
 
@@ -74,13 +76,32 @@ fn is_nan<T: PartialOrd>(a: &T) -> bool {
     a != a
 }
 
+/// -1, 0 or 1; NaN of NaN.
+#[inline]
+pub(super) fn sign(a: f64) -> f64 {
+    if a > 0.0 {
+        1.0
+    } else if a < 0.0 {
+        -1.0
+    } else {
+        a * 0.0
+    }
+}
+
+/// 0 up to `lo`, 1 from `hi` on, and a smooth step between.
+#[inline]
+pub(super) fn smoothstep(lo: f64, hi: f64, a: f64) -> f64 {
+    let t = smaller(larger((a - lo) / (hi - lo), 0.0), 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
 /// Sine and cosine from additions, products and a rounding, in the order in
 /// which generated code has them. WGSL promises only 2^-11 for its own; this is
 /// within 1e-7 for arguments up to 100, and as accurate in relation to a small argument.
 ///
 /// The argument is reduced by multiples of a quarter turn, which is subtracted
 /// in three parts, the first two so short that their products are exact.
-fn portable_sincos(x: f32) -> (f32, f32) {
+pub(super) fn portable_sincos(x: f32) -> (f32, f32) {
     let quarters = (x * std::f32::consts::FRAC_2_PI).round_ties_even();
     let r = ((x - quarters * 1.570_312_5) - quarters * 4.837_513e-4) - quarters * 7.549_79e-8;
     let z = r * r;
@@ -109,70 +130,17 @@ impl Real for f64 {
 
     #[inline]
     fn unary(op: UnaryOp, a: f64) -> f64 {
-        match op {
-            UnaryOp::Negate => -a,
-            UnaryOp::Abs => a.abs(),
-            UnaryOp::Acos => libm::acos(a),
-            UnaryOp::Acosh => libm::acosh(a),
-            UnaryOp::Asin => libm::asin(a),
-            UnaryOp::Asinh => libm::asinh(a),
-            UnaryOp::Atan => libm::atan(a),
-            UnaryOp::Atanh => libm::atanh(a),
-            UnaryOp::Ceil => a.ceil(),
-            UnaryOp::Cos => libm::cos(a),
-            UnaryOp::Cosh => libm::cosh(a),
-            UnaryOp::Degrees => a.to_degrees(),
-            UnaryOp::Exp => libm::exp(a),
-            UnaryOp::Exp2 => libm::exp2(a),
-            UnaryOp::Floor => a.floor(),
-            UnaryOp::Fract => a - a.floor(),
-            UnaryOp::InverseSqrt => 1.0 / a.sqrt(),
-            UnaryOp::Log => libm::log(a),
-            UnaryOp::Log2 => libm::log2(a),
-            UnaryOp::PortableCos => libm::cos(a),
-            UnaryOp::PortableSin => libm::sin(a),
-            UnaryOp::Radians => a.to_radians(),
-            UnaryOp::Round => a.round_ties_even(),
-            UnaryOp::Saturate => smaller(larger(a, 0.0), 1.0),
-            UnaryOp::Sign if a > 0.0 => 1.0,
-            UnaryOp::Sign if a < 0.0 => -1.0,
-            UnaryOp::Sign => a * 0.0,
-            UnaryOp::Sin => libm::sin(a),
-            UnaryOp::Sinh => libm::sinh(a),
-            UnaryOp::Sqrt => a.sqrt(),
-            UnaryOp::Tan => libm::tan(a),
-            UnaryOp::Tanh => libm::tanh(a),
-            UnaryOp::Trunc => a.trunc(),
-        }
+        (op.row().wide)(a)
     }
 
     #[inline]
     fn binary(op: BinaryOp, a: f64, b: f64) -> f64 {
-        match op {
-            BinaryOp::Add => a + b,
-            BinaryOp::Subtract => a - b,
-            BinaryOp::Multiply => a * b,
-            BinaryOp::Divide => a / b,
-            BinaryOp::Remainder => a % b,
-            BinaryOp::Atan2 => libm::atan2(a, b),
-            BinaryOp::Max => larger(a, b),
-            BinaryOp::Min => smaller(a, b),
-            BinaryOp::Pow => libm::pow(a, b),
-            BinaryOp::Step => f64::from(u8::from(a <= b)),
-        }
+        (op.row().wide)(a, b)
     }
 
     #[inline]
     fn ternary(op: TernaryOp, a: f64, b: f64, c: f64) -> f64 {
-        match op {
-            TernaryOp::Clamp => smaller(larger(a, b), c),
-            TernaryOp::Fma => a.mul_add(b, c),
-            TernaryOp::Mix => a * (1.0 - c) + b * c,
-            TernaryOp::Smoothstep => {
-                let t = smaller(larger((c - a) / (b - a), 0.0), 1.0);
-                t * t * (3.0 - 2.0 * t)
-            }
-        }
+        (op.row().wide)(a, b, c)
     }
 }
 
@@ -189,35 +157,25 @@ impl Real for f32 {
 
     #[inline]
     fn unary(op: UnaryOp, a: f32) -> f32 {
-        match op {
-            UnaryOp::Negate => -a,
-            UnaryOp::Abs => a.abs(),
-            UnaryOp::Sqrt => a.sqrt(),
-            UnaryOp::PortableCos => portable_sincos(a).1,
-            UnaryOp::PortableSin => portable_sincos(a).0,
-            _ => f64::unary(op, f64::from(a)) as f32,
+        match op.row().narrow {
+            Some(narrow) => narrow(a),
+            None => f64::unary(op, f64::from(a)) as f32,
         }
     }
 
     #[inline]
     fn binary(op: BinaryOp, a: f32, b: f32) -> f32 {
-        match op {
-            BinaryOp::Add => a + b,
-            BinaryOp::Subtract => a - b,
-            BinaryOp::Multiply => a * b,
-            BinaryOp::Divide => a / b,
-            BinaryOp::Max => larger(a, b),
-            BinaryOp::Min => smaller(a, b),
-            _ => f64::binary(op, f64::from(a), f64::from(b)) as f32,
+        match op.row().narrow {
+            Some(narrow) => narrow(a, b),
+            None => f64::binary(op, f64::from(a), f64::from(b)) as f32,
         }
     }
 
     #[inline]
     fn ternary(op: TernaryOp, a: f32, b: f32, c: f32) -> f32 {
-        match op {
-            TernaryOp::Clamp => smaller(larger(a, b), c),
-            TernaryOp::Fma => a.mul_add(b, c),
-            _ => f64::ternary(op, f64::from(a), f64::from(b), f64::from(c)) as f32,
+        match op.row().narrow {
+            Some(narrow) => narrow(a, b, c),
+            None => f64::ternary(op, f64::from(a), f64::from(b), f64::from(c)) as f32,
         }
     }
 }

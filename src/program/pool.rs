@@ -7,6 +7,7 @@
 
 use std::collections::HashMap;
 
+use super::operators::{BinaryOp, TernaryOp, UnaryOp};
 use super::{InputId, Real};
 
 /// An expression in a [`Pool`].
@@ -58,122 +59,6 @@ pub enum Node {
     /// The first value if the condition holds, else the second; the other one is not evaluated.
     Select(CondId, ExprId, ExprId),
 }
-
-/// Operations on one number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs)]
-pub enum UnaryOp {
-    Negate,
-    Abs,
-    Acos,
-    Acosh,
-    Asin,
-    Asinh,
-    Atan,
-    Atanh,
-    Ceil,
-    Cos,
-    Cosh,
-    Degrees,
-    Exp,
-    Exp2,
-    Floor,
-    Fract,
-    InverseSqrt,
-    Log,
-    Log2,
-    /// The cosine by portable arithmetic; see `ops`.
-    PortableCos,
-    /// The sine by portable arithmetic; see `ops`.
-    PortableSin,
-    Radians,
-    Round,
-    Saturate,
-    Sign,
-    Sin,
-    Sinh,
-    Sqrt,
-    Tan,
-    Tanh,
-    Trunc,
-}
-
-/// Operations on two numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs)]
-pub enum BinaryOp {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Remainder,
-    Atan2,
-    Max,
-    Min,
-    Pow,
-    Step,
-}
-
-/// Operations on three numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[allow(missing_docs)]
-pub enum TernaryOp {
-    Clamp,
-    Fma,
-    Mix,
-    Smoothstep,
-}
-
-/// WGSL names of the operations that are called as functions.
-pub const UNARY_FUNCTIONS: [(&str, UnaryOp); 30] = [
-    ("abs", UnaryOp::Abs),
-    ("acos", UnaryOp::Acos),
-    ("acosh", UnaryOp::Acosh),
-    ("asin", UnaryOp::Asin),
-    ("asinh", UnaryOp::Asinh),
-    ("atan", UnaryOp::Atan),
-    ("atanh", UnaryOp::Atanh),
-    ("ceil", UnaryOp::Ceil),
-    ("cos", UnaryOp::Cos),
-    ("cosh", UnaryOp::Cosh),
-    ("degrees", UnaryOp::Degrees),
-    ("exp", UnaryOp::Exp),
-    ("exp2", UnaryOp::Exp2),
-    ("floor", UnaryOp::Floor),
-    ("fract", UnaryOp::Fract),
-    ("inverseSqrt", UnaryOp::InverseSqrt),
-    ("log", UnaryOp::Log),
-    ("log2", UnaryOp::Log2),
-    ("portableCos", UnaryOp::PortableCos),
-    ("portableSin", UnaryOp::PortableSin),
-    ("radians", UnaryOp::Radians),
-    ("round", UnaryOp::Round),
-    ("saturate", UnaryOp::Saturate),
-    ("sign", UnaryOp::Sign),
-    ("sin", UnaryOp::Sin),
-    ("sinh", UnaryOp::Sinh),
-    ("sqrt", UnaryOp::Sqrt),
-    ("tan", UnaryOp::Tan),
-    ("tanh", UnaryOp::Tanh),
-    ("trunc", UnaryOp::Trunc),
-];
-
-/// WGSL names of the two-operand operations that are called as functions.
-pub const BINARY_FUNCTIONS: [(&str, BinaryOp); 5] = [
-    ("atan2", BinaryOp::Atan2),
-    ("max", BinaryOp::Max),
-    ("min", BinaryOp::Min),
-    ("pow", BinaryOp::Pow),
-    ("step", BinaryOp::Step),
-];
-
-/// WGSL names of the three-operand operations.
-pub const TERNARY_FUNCTIONS: [(&str, TernaryOp); 4] = [
-    ("clamp", TernaryOp::Clamp),
-    ("fma", TernaryOp::Fma),
-    ("mix", TernaryOp::Mix),
-    ("smoothstep", TernaryOp::Smoothstep),
-];
 
 /// A set of levels of one input, as a bit mask.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

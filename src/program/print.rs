@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::pool::{BINARY_FUNCTIONS, TERNARY_FUNCTIONS, UNARY_FUNCTIONS};
-use super::{BinaryOp, Comparison, Cond, CondId, Domain, ExprId, Input, LevelKind, Node, Pool, UnaryOp};
+use super::operators::Notation;
+use super::{Comparison, Cond, CondId, Domain, ExprId, Input, LevelKind, Node, Pool};
 
 /// Longest text, in bytes; what is longer is broken off.
 const MAX_LENGTH: usize = 4_000;
@@ -71,27 +71,18 @@ impl Printer<'_> {
             }
             Node::Input(input) => out.push_str(&self.inputs[input.index()].name),
             Node::Result => out.push_str("value"),
-            Node::Unary(UnaryOp::Negate, a) => {
-                out.push('-');
-                self.write_expr(out, a, 6);
-            }
-            Node::Unary(op, a) => {
-                let name = UNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("?", |(n, _)| n);
-                self.call(out, name, &[a]);
-            }
-            Node::Binary(BinaryOp::Add, a, b) => self.infix(out, "+", 4, outer, a, b),
-            Node::Binary(BinaryOp::Subtract, a, b) => self.infix(out, "-", 4, outer, a, b),
-            Node::Binary(BinaryOp::Multiply, a, b) => self.infix(out, "*", 5, outer, a, b),
-            Node::Binary(BinaryOp::Divide, a, b) => self.infix(out, "/", 5, outer, a, b),
-            Node::Binary(BinaryOp::Remainder, a, b) => self.infix(out, "%", 5, outer, a, b),
-            Node::Binary(op, a, b) => {
-                let name = BINARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("?", |(n, _)| n);
-                self.call(out, name, &[a, b]);
-            }
-            Node::Ternary(op, a, b, c) => {
-                let name = TERNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("?", |(n, _)| n);
-                self.call(out, name, &[a, b, c]);
-            }
+            Node::Unary(op, a) => match op.row().notation {
+                Notation::Function(name, _) => self.call(out, name, &[a]),
+                symbol @ (Notation::Prefix(_) | Notation::Infix(_)) => {
+                    out.push_str(symbol.name());
+                    self.write_expr(out, a, 6);
+                }
+            },
+            Node::Binary(op, a, b) => match op.row().notation {
+                Notation::Infix(symbol) => self.infix(out, symbol.symbol(), symbol.strength(), outer, a, b),
+                function @ (Notation::Function(..) | Notation::Prefix(_)) => self.call(out, function.name(), &[a, b]),
+            },
+            Node::Ternary(op, a, b, c) => self.call(out, op.row().notation.name(), &[a, b, c]),
             Node::Select(condition, then, other) => {
                 out.push_str("if ");
                 self.write_cond(out, condition, 0);

@@ -16,11 +16,12 @@ use std::ops::ControlFlow;
 use num_traits::Signed;
 
 use super::normal::{Affine, Normaliser};
+use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
 use super::print::Printer;
 use super::region::{self, Sign};
 use super::{
     BinaryOp, Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, LevelTerm, Node, Pool, Program, Symmetry,
-    TernaryOp, UnaryOp, Value,
+    UnaryOp, Value,
 };
 
 /// Most paths of one state that are looked at. Published tables have a few dozen.
@@ -363,35 +364,41 @@ impl<'p> Machine<'p> {
             Node::Unary(op, a) => {
                 let a = self.flatten(a);
                 let zero = self.pool.number(0.0);
-                match op {
-                    UnaryOp::Abs => {
+                match op.row().algebra {
+                    UnaryAlgebra::Absolute => {
                         let negated = self.pool.unary(UnaryOp::Negate, a);
                         self.larger(a, negated)
                     }
-                    UnaryOp::Saturate => {
+                    UnaryAlgebra::Saturate => {
                         let one = self.pool.number(1.0);
                         let raised = self.larger(a, zero);
                         self.smaller(raised, one)
                     }
-                    _ => self.pool.unary(op, a),
+                    UnaryAlgebra::Negate | UnaryAlgebra::Opaque => self.pool.unary(op, a),
                 }
             }
             Node::Binary(op, a, b) => {
                 let (a, b) = (self.flatten(a), self.flatten(b));
-                match op {
-                    BinaryOp::Min => self.smaller(a, b),
-                    BinaryOp::Max => self.larger(a, b),
-                    _ => self.pool.binary(op, a, b),
+                match op.row().algebra {
+                    BinaryAlgebra::Minimum => self.smaller(a, b),
+                    BinaryAlgebra::Maximum => self.larger(a, b),
+                    BinaryAlgebra::Sum
+                    | BinaryAlgebra::Difference
+                    | BinaryAlgebra::Product
+                    | BinaryAlgebra::Quotient
+                    | BinaryAlgebra::Opaque => self.pool.binary(op, a, b),
                 }
             }
             Node::Ternary(op, a, b, c) => {
                 let [a, b, c] = [a, b, c].map(|part| self.flatten(part));
-                match op {
-                    TernaryOp::Clamp => {
+                match op.row().algebra {
+                    TernaryAlgebra::Clamp => {
                         let raised = self.larger(a, b);
                         self.smaller(raised, c)
                     }
-                    _ => self.pool.ternary(op, a, b, c),
+                    TernaryAlgebra::ProductAndSum | TernaryAlgebra::Mix | TernaryAlgebra::Opaque => {
+                        self.pool.ternary(op, a, b, c)
+                    }
                 }
             }
         }

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::program::{BinaryOp, Domain, ExprId, Node, Pool, Program, TernaryOp, UnaryOp};
+use crate::program::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
+use crate::program::{Domain, ExprId, Node, Pool, Program};
 
 /// Half a unit in the last place of 1: the relative error of one rounding.
 const UNIT: f64 = 1.0 / 16_777_216.0;
@@ -57,33 +58,38 @@ fn operation(
             Domain::Discrete(_) => None,
         },
         Node::Result | Node::Select(..) => None,
-        Node::Unary(UnaryOp::Negate, a) => {
+        Node::Unary(op, a) => {
             let a = of(a)?;
-            Some(Bound { lo: -a.hi, hi: -a.lo, error: a.error })
+            match op.row().algebra {
+                UnaryAlgebra::Negate => Some(Bound { lo: -a.hi, hi: -a.lo, error: a.error }),
+                UnaryAlgebra::Saturate => {
+                    Some(Bound { lo: a.lo.clamp(0.0, 1.0), hi: a.hi.clamp(0.0, 1.0), error: a.error })
+                }
+                UnaryAlgebra::Absolute | UnaryAlgebra::Opaque => None,
+            }
         }
-        Node::Unary(UnaryOp::Saturate, a) => {
-            let a = of(a)?;
-            Some(Bound { lo: a.lo.clamp(0.0, 1.0), hi: a.hi.clamp(0.0, 1.0), error: a.error })
-        }
-        Node::Unary(..) => None,
         Node::Binary(op, a, b) => {
             let (a, b) = (of(a)?, of(b)?);
             let error = a.error + b.error;
-            match op {
-                BinaryOp::Add => Bound::rounded(a.lo + b.lo, a.hi + b.hi, error),
-                BinaryOp::Subtract => Bound::rounded(a.lo - b.hi, a.hi - b.lo, error),
-                BinaryOp::Multiply => {
+            match op.row().algebra {
+                BinaryAlgebra::Sum => Bound::rounded(a.lo + b.lo, a.hi + b.hi, error),
+                BinaryAlgebra::Difference => Bound::rounded(a.lo - b.hi, a.hi - b.lo, error),
+                BinaryAlgebra::Product => {
                     let ends = [a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi];
                     let (lo, hi) = ends.iter().fold((f64::MAX, f64::MIN), |(l, h), e| (l.min(*e), h.max(*e)));
                     let size = |x: Bound| x.lo.abs().max(x.hi.abs());
                     Bound::rounded(lo, hi, size(a) * b.error + size(b) * a.error + a.error * b.error)
                 }
-                BinaryOp::Min => Some(Bound { lo: a.lo.min(b.lo), hi: a.hi.min(b.hi), error: a.error.max(b.error) }),
-                BinaryOp::Max => Some(Bound { lo: a.lo.max(b.lo), hi: a.hi.max(b.hi), error: a.error.max(b.error) }),
-                _ => None,
+                BinaryAlgebra::Minimum => {
+                    Some(Bound { lo: a.lo.min(b.lo), hi: a.hi.min(b.hi), error: a.error.max(b.error) })
+                }
+                BinaryAlgebra::Maximum => {
+                    Some(Bound { lo: a.lo.max(b.lo), hi: a.hi.max(b.hi), error: a.error.max(b.error) })
+                }
+                BinaryAlgebra::Quotient | BinaryAlgebra::Opaque => None,
             }
         }
-        Node::Ternary(TernaryOp::Clamp, x, lo, hi) => {
+        Node::Ternary(op, x, lo, hi) if op.row().algebra == TernaryAlgebra::Clamp => {
             let (x, lo, hi) = (of(x)?, of(lo)?, of(hi)?);
             let error = x.error.max(lo.error).max(hi.error);
             Some(Bound { lo: x.lo.max(lo.lo).min(hi.lo), hi: x.hi.max(lo.hi).min(hi.hi), error })

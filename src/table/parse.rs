@@ -35,24 +35,9 @@ struct Parser<'a> {
     bounds: bool,
 }
 
-/// Binding strength of a binary operator; comparisons do not chain.
+/// The binary operator of a symbol, and its binding strength; comparisons do not chain.
 fn strength(symbol: &str) -> Option<(u8, BinaryOp)> {
-    Some(match symbol {
-        "||" => (1, BinaryOp::Or),
-        "&&" => (2, BinaryOp::And),
-        "==" => (3, BinaryOp::Equal),
-        "!=" => (3, BinaryOp::NotEqual),
-        "<" => (3, BinaryOp::Less),
-        "<=" => (3, BinaryOp::LessEqual),
-        ">" => (3, BinaryOp::Greater),
-        ">=" => (3, BinaryOp::GreaterEqual),
-        "+" => (4, BinaryOp::Add),
-        "-" => (4, BinaryOp::Subtract),
-        "*" => (5, BinaryOp::Multiply),
-        "/" => (5, BinaryOp::Divide),
-        "%" => (5, BinaryOp::Remainder),
-        _ => return None,
-    })
+    BinaryOp::ALL.into_iter().find(|op| op.symbol() == symbol).map(|op| (op.strength(), op))
 }
 
 const COMPARISON: u8 = 3;

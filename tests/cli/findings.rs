@@ -162,6 +162,20 @@ fn numbers() {
     says!("out_of_range", place.run("check demo.ron").all());
 }
 
+/// The two sines are bounded alike, so the root of a negative number is found under either.
+#[test]
+fn a_root_of_any_sine_can_leave_the_numbers() {
+    for function in ["sin", "cos", "portableSin", "portableCos"] {
+        let found = said(
+            "\"x\": Range(from: -3, to: 3, default: 0)",
+            &format!(
+                "    cases: [Case(id: 1, when: \"x <= 3\", value: \"sqrt({function}(x) + 0.5)\")],\n    default: 0,\n"
+            ),
+        );
+        assert!(found.contains("warning[U0514]") && found.contains("the root of a negative number"), "{found}");
+    }
+}
+
 #[test]
 fn continuity() {
     says!(

@@ -3,9 +3,7 @@
 use proptest::prelude::*;
 use umbrage::diag::Source;
 use umbrage::eval::{Interpreter, Interval, IntervalInterpreter, NeedsFetch};
-use umbrage::program::{
-    BINARY_FUNCTIONS, BinaryOp, Domain, InputId, Program, Real, TERNARY_FUNCTIONS, UNARY_FUNCTIONS, UnaryOp, Value,
-};
+use umbrage::program::{BinaryOp, Domain, InputId, Program, Real, TernaryOp, UnaryOp, Value};
 use umbrage::table::Table;
 
 fn program(text: &str) -> Program {
@@ -145,15 +143,6 @@ fn too_many_forks_admit_everything() {
     assert!(all.everything && all.contains(None, &[f32::NAN]));
 }
 
-fn unary_ops() -> impl Iterator<Item = UnaryOp> {
-    UNARY_FUNCTIONS.into_iter().map(|(_, op)| op).chain([UnaryOp::Negate])
-}
-
-fn binary_ops() -> impl Iterator<Item = BinaryOp> {
-    use BinaryOp::{Add, Divide, Multiply, Remainder, Subtract};
-    BINARY_FUNCTIONS.into_iter().map(|(_, op)| op).chain([Add, Subtract, Multiply, Divide, Remainder])
-}
-
 /// An operand: a few neighbouring numbers, and the interval of them.
 fn operand() -> impl Strategy<Value = (Vec<f32>, Interval)> {
     let special = prop::sample::select(vec![
@@ -183,27 +172,37 @@ fn operand() -> impl Strategy<Value = (Vec<f32>, Interval)> {
     })
 }
 
+/// A wide operand: an interval, and numbers of it.
+fn wide() -> impl Strategy<Value = (Vec<f32>, Interval)> {
+    let width = prop_oneof![2 => 0.0_f32..1.0, 2 => 0.0_f32..10.0, 1 => 0.0_f32..1000.0];
+    (-8.0_f32..8.0, width, prop::collection::vec(0.0_f32..=1.0, 6)).prop_map(|(lo, width, shares)| {
+        let hi = lo + width;
+        let numbers = shares.into_iter().map(|share| (lo + share * width).clamp(lo, hi));
+        (numbers.chain([lo, hi]).collect(), Interval::exactly(lo).hull(Interval::exactly(hi)))
+    })
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// The exact result, rounded once or not at all, is admissible for every operation and operand.
     #[test]
     fn operations_contain_their_results((xs, x) in operand(), (ys, y) in operand(), (zs, z) in operand()) {
-        for op in unary_ops() {
+        for op in UnaryOp::ALL.iter().copied() {
             let all = Interval::unary(op, x);
             for x in &xs {
                 let wide = f64::unary(op, f64::from(*x)) as f32;
                 prop_assert!(all.contains(f32::unary(op, *x)) && all.contains(wide), "{op:?} {x:e}: {all:?}");
             }
         }
-        for op in binary_ops() {
+        for op in BinaryOp::ALL.iter().copied() {
             let all = Interval::binary(op, x, y);
             for (x, y) in xs.iter().flat_map(|x| ys.iter().map(move |y| (*x, *y))) {
                 let wide = f64::binary(op, f64::from(x), f64::from(y)) as f32;
                 prop_assert!(all.contains(f32::binary(op, x, y)) && all.contains(wide), "{op:?} {x:e} {y:e}: {all:?}");
             }
         }
-        for (_, op) in TERNARY_FUNCTIONS {
+        for op in TernaryOp::ALL.iter().copied() {
             let all = Interval::ternary(op, x, y, z);
             for (x, y) in xs.iter().flat_map(|x| ys.iter().map(move |y| (*x, *y))) {
                 for z in &zs {
@@ -211,6 +210,29 @@ proptest! {
                     let narrow = f32::ternary(op, x, y, *z);
                     prop_assert!(all.contains(narrow) && all.contains(wide), "{op:?} {x:e} {y:e} {z:e}: {all:?}");
                 }
+            }
+        }
+    }
+
+    /// The same for wide intervals, at points inside of them.
+    #[test]
+    fn wide_intervals_contain_the_results_inside((xs, x) in wide(), (ys, y) in wide(), (zs, z) in wide()) {
+        for op in UnaryOp::ALL.iter().copied() {
+            let all = Interval::unary(op, x);
+            for x in &xs {
+                prop_assert!(all.contains(f32::unary(op, *x)), "{op:?} {x:e}: {all:?}");
+            }
+        }
+        for op in BinaryOp::ALL.iter().copied() {
+            let all = Interval::binary(op, x, y);
+            for (x, y) in xs.iter().flat_map(|x| ys.iter().map(move |y| (*x, *y))) {
+                prop_assert!(all.contains(f32::binary(op, x, y)), "{op:?} {x:e} {y:e}: {all:?}");
+            }
+        }
+        for op in TernaryOp::ALL.iter().copied() {
+            let all = Interval::ternary(op, x, y, z);
+            for (x, (y, z)) in xs.iter().flat_map(|x| ys.iter().zip(&zs).map(move |rest| (*x, rest))) {
+                prop_assert!(all.contains(f32::ternary(op, x, *y, *z)), "{op:?} {x:e} {y:e} {z:e}: {all:?}");
             }
         }
     }

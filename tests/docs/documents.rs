@@ -105,9 +105,7 @@ fn the_tutorial_shows_its_table() {
 #[test]
 fn the_reference_is_complete() {
     let text = read(&root().join("docs/language.md"));
-    let functions = umbrage::program::UNARY_FUNCTIONS.iter().map(|(name, _)| *name);
-    let functions = functions.chain(umbrage::program::BINARY_FUNCTIONS.iter().map(|(name, _)| *name));
-    let functions = functions.chain(umbrage::program::TERNARY_FUNCTIONS.iter().map(|(name, _)| *name));
+    let functions = umbrage::program::operators::Operator::functions().map(|(name, _)| name);
     for name in functions.chain(["f32", "select", "vec2", "dot", "length", "distance", "normalize", "cross"]) {
         assert!(text.contains(&format!("`{name}(")), "`{name}` is not explained");
     }

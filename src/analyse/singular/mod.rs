@@ -26,7 +26,7 @@ use crate::diag::{Diagnostic, Span, codes};
 use crate::eval::{Precise, Unknown};
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::{BinaryOp, CondId, ExprId, InputId, Node, Program, UnaryOp, Value};
+use crate::program::{BinaryOp, CondId, ExprId, InputId, Node, Program, Value};
 use crate::show::{Precision, sentence};
 pub use points::inside as domain_points;
 use trace::Trace;
@@ -317,9 +317,9 @@ pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss>
 /// U0554: one finding for each kind of operation that overflows, at the first point that shows it.
 fn overflows(program: &Program) -> Vec<Diagnostic> {
     let risky = |expr: &ExprId| match program.pool.node(*expr) {
-        Node::Unary(op, _) => matches!(op, UnaryOp::Exp | UnaryOp::Exp2 | UnaryOp::Sinh | UnaryOp::Cosh),
-        Node::Binary(op, ..) => op == BinaryOp::Pow,
-        _ => false,
+        Node::Unary(op, _) => op.row().is_exponential,
+        Node::Binary(op, ..) => op.row().is_exponential,
+        Node::Const(_) | Node::Input(_) | Node::Result | Node::Ternary(..) | Node::Select(..) => false,
     };
     if !expressions(program).iter().any(risky) {
         return Vec::new();

@@ -6,8 +6,9 @@
 //! hold, that is [`Trouble`].
 
 use std::collections::BinaryHeap;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
+use crate::program::operators::Image;
 use crate::program::{BinaryOp, Domain, ExprId, InputSet, Node, Pool, Program, TernaryOp, UnaryOp};
 
 /// An interval for every input; of discrete ones it means nothing.
@@ -98,18 +99,10 @@ pub(in crate::analyse) fn is_partial(pool: &Pool, expr: ExprId) -> bool {
     let any = |parts: &[ExprId]| parts.iter().any(|part| is_partial(pool, *part));
     match pool.node(expr) {
         Node::Const(_) | Node::Input(_) | Node::Result => false,
-        Node::Unary(op, a) => {
-            !matches!(
-                op,
-                UnaryOp::Negate | UnaryOp::Abs | UnaryOp::Sign | UnaryOp::Saturate | UnaryOp::Floor | UnaryOp::Ceil
-            ) || any(&[a])
-        }
-        Node::Binary(op, a, b) => match op {
-            BinaryOp::Add | BinaryOp::Subtract | BinaryOp::Min | BinaryOp::Max | BinaryOp::Step => any(&[a, b]),
-            BinaryOp::Divide if pool.constant(b).is_some() => any(&[a, b]),
-            BinaryOp::Multiply if pool.constant(a).is_some() || pool.constant(b).is_some() => any(&[a, b]),
-            _ => true,
-        },
+        Node::Unary(op, a) => !op.row().is_plain || any(&[a]),
+        Node::Binary(BinaryOp::Divide, a, b) if pool.constant(b).is_some() => any(&[a, b]),
+        Node::Binary(BinaryOp::Multiply, a, b) if pool.constant(a).is_none() && pool.constant(b).is_none() => true,
+        Node::Binary(op, a, b) => !op.row().is_plain || any(&[a, b]),
         Node::Ternary(op, a, b, c) => op == TernaryOp::Smoothstep && pool.constant(a).is_none() || any(&[a, b, c]),
         Node::Select(_, a, b) => any(&[a, b]),
     }
@@ -207,47 +200,34 @@ fn point(value: f64) -> Interval {
 /// An image, unless it is more than an `f32` can hold.
 fn finite(lo: f64, hi: f64) -> (Interval, Option<&'static str>) {
     let largest = f64::from(f32::MAX);
-    match lo >= -largest && hi <= largest {
-        true => ((lo, hi), None),
-        false => ((lo, hi), Some("can be larger than any f32")),
-    }
+    let what = (lo < -largest || hi > largest).then_some("can be larger than any f32");
+    ((lo, hi), what)
 }
 
 fn unary(op: UnaryOp, (lo, hi): Interval) -> (Interval, Option<&'static str>) {
-    use UnaryOp as Op;
-    let fails = |what| (ANY, Some(what));
-    let grows = |f: fn(f64) -> f64| finite(f(lo), f(hi));
-    match op {
-        // What failed inside has been reported already.
-        _ if lo == f64::NEG_INFINITY || hi == f64::INFINITY => (ANY, None),
-        Op::Negate => ((-hi, -lo), None),
-        Op::Abs => ((if lo > 0.0 { lo } else { (-hi).max(0.0) }, hi.abs().max(lo.abs())), None),
-        Op::Sqrt if lo < 0.0 => fails("can be the root of a negative number"),
-        Op::InverseSqrt if lo <= 0.0 => fails("can be the inverse root of a number that is not positive"),
-        Op::InverseSqrt => finite(1.0 / hi.sqrt(), 1.0 / lo.sqrt()),
-        Op::Log | Op::Log2 if lo <= 0.0 => fails("can be the logarithm of a number that is not positive"),
-        Op::Asin | Op::Acos if lo < -1.0 || hi > 1.0 => fails("can have an operand beyond -1 to 1"),
-        Op::Acos => ((libm::acos(hi), libm::acos(lo)), None),
-        Op::Acosh if lo < 1.0 => fails("can have an operand below 1"),
-        Op::Atanh if lo <= -1.0 || hi >= 1.0 => fails("can have an operand that is not between -1 and 1"),
-        Op::Tan => {
-            let turns = |x: f64| ((x - FRAC_PI_2) / PI).floor();
-            match turns(lo) == turns(hi) {
-                true => grows(libm::tan),
-                false => fails("can be the tangent of a right angle"),
-            }
+    // What failed inside has been reported already.
+    if lo == f64::NEG_INFINITY || hi == f64::INFINITY {
+        return (ANY, None);
+    }
+    let row = op.row();
+    if let Some(operands) = row.operands.filter(|operands| !operands.contain(lo, hi)) {
+        return (ANY, Some(operands.outside));
+    }
+    let of = row.wide;
+    match row.image {
+        Image::Increasing | Image::Steps => finite(of(lo), of(hi)),
+        Image::Decreasing => finite(of(hi), of(lo)),
+        Image::Valley => {
+            let least = if lo <= 0.0 && hi >= 0.0 { 0.0 } else { lo.abs().min(hi.abs()) };
+            finite(of(least), of(lo.abs().max(hi.abs())))
         }
-        Op::Sin => (wave(lo, hi, libm::sin, FRAC_PI_2), None),
-        Op::Cos => (wave(lo, hi, libm::cos, 0.0), None),
-        Op::Cosh => {
-            let largest = libm::cosh(lo.abs().max(hi.abs()));
-            let least = if lo <= 0.0 && hi >= 0.0 { 1.0 } else { libm::cosh(lo.abs().min(hi.abs())) };
-            finite(least, largest)
+        Image::Wave { peak } => (wave(lo, hi, of, peak), None),
+        Image::Poles { pole, what } => {
+            let turns = |x: f64| ((x - pole) / PI).floor();
+            if turns(lo) == turns(hi) { finite(of(lo), of(hi)) } else { (ANY, Some(what)) }
         }
-        Op::Fract if lo.floor() == hi.floor() => ((lo - lo.floor(), hi - lo.floor()), None),
-        Op::Fract => ((0.0, 1.0), None),
-        // All others do not decrease.
-        _ => finite(op.apply(lo), op.apply(hi)),
+        Image::Sawtooth if lo.floor() == hi.floor() => ((of(lo), of(hi)), None),
+        Image::Sawtooth => ((0.0, 1.0), None),
     }
 }
 
@@ -326,6 +306,8 @@ fn ternary(op: TernaryOp, a: Interval, b: Interval, c: Interval) -> (Interval, O
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
     use crate::diag::Source;
     use crate::table::Table;
@@ -366,5 +348,54 @@ mod tests {
         assert_eq!(what("sqrt(x)"), None);
         assert_eq!(what("sqrt(y) + 1"), Some("can be the root of a negative number"));
         assert_eq!(what("exp(100 * x)"), Some("can be larger than any f32"));
+    }
+
+    /// An operand: an interval, and points of it.
+    fn operand() -> impl Strategy<Value = (Interval, Vec<f64>)> {
+        let start =
+            prop_oneof![6 => -4.0_f64..4.0, 2 => -100.0_f64..100.0, 1 => Just(0.0), 1 => Just(1.0), 1 => -1e6_f64..1e6];
+        let width = prop_oneof![1 => Just(0.0), 3 => 0.0_f64..1.0, 3 => 0.0_f64..10.0, 1 => 0.0_f64..1000.0];
+        (start, width, prop::collection::vec(0.0_f64..=1.0, 6)).prop_map(|(lo, width, shares)| {
+            let hi = lo + width;
+            let points = shares.into_iter().map(|share| (lo + share * width).clamp(lo, hi));
+            ((lo, hi), points.chain([lo, hi]).collect())
+        })
+    }
+
+    /// Fails if a value at a point is outside of an image that is said to be one.
+    fn contains(image: (Interval, Option<&str>), value: f64, what: impl Fn() -> String) -> Result<(), TestCaseError> {
+        let ((lo, hi), trouble) = image;
+        // Of the portable library no function is known to be monotone to the last digit.
+        let slack = 1e-12 * value.abs().max(1.0);
+        let inside = lo - slack <= value && value <= hi + slack;
+        prop_assert!(trouble.is_some() || inside, "{}: {value} is not in {lo} to {hi}", what());
+        Ok(())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
+
+        /// The image of an interval contains the value at every point of it, for every operator, or trouble is reported.
+        #[test]
+        fn images_contain_the_values((x, xs) in operand(), (y, ys) in operand(), (z, zs) in operand()) {
+            for op in UnaryOp::ALL.iter().copied() {
+                let image = unary(op, x);
+                for a in &xs {
+                    contains(image, op.apply(*a), || format!("{op:?} of {a} in {x:?}"))?;
+                }
+            }
+            for op in BinaryOp::ALL.iter().copied() {
+                let image = binary(op, x, y);
+                for (a, b) in xs.iter().flat_map(|a| ys.iter().map(move |b| (*a, *b))) {
+                    contains(image, op.apply(a, b), || format!("{op:?} of {a} in {x:?}, {b} in {y:?}"))?;
+                }
+            }
+            for op in TernaryOp::ALL.iter().copied() {
+                let image = ternary(op, x, y, z);
+                for (a, (b, c)) in xs.iter().flat_map(|a| ys.iter().zip(&zs).map(move |rest| (*a, rest))) {
+                    contains(image, op.apply(a, *b, *c), || format!("{op:?} of {a} in {x:?}, {b} in {y:?}, {c} in {z:?}"))?;
+                }
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::lookup::{key_words, piece, stride};
 use super::terms::Locals;
-use crate::emit::language::{Type, bare, infix};
+use crate::emit::language::{Type, bare};
 use crate::emit::names::input_type;
 use crate::plan::{StepId, renamed};
 use crate::program::{BinaryOp, InputId, InputSet, LevelKind, TernaryOp};
@@ -51,8 +51,8 @@ impl Body<'_, '_> {
                 for (place, input) in coefficients.inputs.iter().enumerate() {
                     let factor = self.dialect.float_from_bits(&word(self, offset + 1 + place));
                     let input = &plan.program.inputs[input.index()].ident;
-                    let product = infix(BinaryOp::Multiply, &factor, input).unwrap_or_default();
-                    sum = infix(BinaryOp::Add, &sum, &product).unwrap_or_default();
+                    let product = self.dialect.binary(self.prefix, BinaryOp::Multiply, &factor, input);
+                    sum = self.dialect.binary(self.prefix, BinaryOp::Add, &sum, &product);
                 }
                 offset += 1 + coefficients.inputs.len();
                 let sum = self.named(&Type::Float, &sum);
@@ -62,12 +62,12 @@ impl Body<'_, '_> {
                 });
             }
             let least = least.unwrap_or_default();
-            let value = infix(BinaryOp::Multiply, &sign, &least).unwrap_or_default();
+            let value = self.dialect.binary(self.prefix, BinaryOp::Multiply, &sign, &least);
             values.push(match coefficients.clamp {
                 None => bare(&value).to_owned(),
                 Some((lo, hi)) => {
                     let (lo, hi) = (self.dialect.number(lo), self.dialect.number(hi));
-                    self.dialect.ternary(TernaryOp::Clamp, &value, &lo, &hi)
+                    self.dialect.ternary(self.prefix, TernaryOp::Clamp, &value, &lo, &hi)
                 }
             });
         }

@@ -4,9 +4,9 @@ use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
 use super::body::Body;
-use crate::emit::language::{Type, bare, call};
+use crate::emit::language::{Type, bare};
 use crate::plan::Leaf;
-use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, UnaryOp};
+use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node};
 
 /// What is in sight at a place of the code.
 #[derive(Default, Clone)]
@@ -127,13 +127,9 @@ impl Body<'_, '_> {
             }
             // In the result map of a symmetry.
             Node::Result => self.result.clone(),
-            Node::Unary(op @ (UnaryOp::PortableSin | UnaryOp::PortableCos), a) => {
-                let pair = call(&self.dialect.global(self.prefix, "sincos"), &[&of(a)]);
-                self.dialect.of_pair(&pair, op == UnaryOp::PortableCos)
-            }
-            Node::Unary(op, a) => self.dialect.unary(op, &of(a)),
+            Node::Unary(op, a) => self.dialect.unary(self.prefix, op, &of(a)),
             Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
-            Node::Ternary(op, a, b, c) => self.dialect.ternary(op, &of(a), &of(b), &of(c)),
+            Node::Ternary(op, a, b, c) => self.dialect.ternary(self.prefix, op, &of(a), &of(b), &of(c)),
             Node::Select(c, a, b) => {
                 if let Some(outcome) = locals.decided.get(&c) {
                     return of(if *outcome { a } else { b });

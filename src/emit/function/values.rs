@@ -11,7 +11,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use super::body::Body;
 use super::terms::{Locals, children};
 use crate::emit::language::{Type, bare, call};
-use crate::program::{BinaryOp, Cond, CondId, ExprId, Node, Pool, UnaryOp};
+use crate::program::{Cond, CondId, ExprId, Node, Pool, UnaryOp};
 
 /// Deepest nesting of a printed expression; what is deeper gets a local.
 /// Front ends recurse, and some give up at about seventy levels.
@@ -279,25 +279,12 @@ fn is_safe(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, bool>) -> bool
     safe
 }
 
-/// Whether an operation is cheap and has a finite result for all finite operands that are not huge.
+/// Returns whether an operation is cheap and has a finite result for all finite operands that are not huge.
 fn cannot_fail(node: Node) -> bool {
     match node {
         Node::Const(_) | Node::Input(_) | Node::Result | Node::Ternary(..) | Node::Select(..) => true,
-        Node::Unary(op, _) => matches!(
-            op,
-            UnaryOp::Negate
-                | UnaryOp::Abs
-                | UnaryOp::Ceil
-                | UnaryOp::Degrees
-                | UnaryOp::Floor
-                | UnaryOp::Fract
-                | UnaryOp::Radians
-                | UnaryOp::Round
-                | UnaryOp::Saturate
-                | UnaryOp::Sign
-                | UnaryOp::Trunc
-        ),
-        Node::Binary(op, ..) => !matches!(op, BinaryOp::Divide | BinaryOp::Remainder | BinaryOp::Atan2 | BinaryOp::Pow),
+        Node::Unary(op, _) => op.row().is_plain,
+        Node::Binary(op, ..) => op.row().is_plain,
     }
 }
 

@@ -1,8 +1,9 @@
 //! GLSL. One text serves 450, 330 core and ES 300: it uses unsigned integers
 //! and `switch`, which all of them have, and no `fma`, which ES 300 lacks.
 
-use super::{Dialect, Prefix, Type, call, infix};
-use crate::program::{BINARY_FUNCTIONS, BinaryOp, Output, TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp};
+use super::{Dialect, Prefix, Type};
+use crate::program::Output;
+use crate::program::operators::{Spelling, Spellings};
 
 /// A version of GLSL.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -125,38 +126,8 @@ impl Dialect for Glsl {
         format!("uintBitsToFloat({word})")
     }
 
-    fn unary(&self, op: UnaryOp, a: &str) -> String {
-        match op {
-            UnaryOp::Negate => format!("(-{a})"),
-            UnaryOp::Saturate => call("clamp", &[a, "0.0", "1.0"]),
-            UnaryOp::InverseSqrt => call("inversesqrt", &[a]),
-            UnaryOp::Round => call("roundEven", &[a]),
-            _ => {
-                let name = UNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("abs", |(name, _)| *name);
-                call(name, &[a])
-            }
-        }
-    }
-
-    fn binary(&self, prefix: &Prefix, op: BinaryOp, a: &str, b: &str) -> String {
-        match op {
-            BinaryOp::Remainder => call(&format!("{}_remainder", prefix.lower), &[a, b]),
-            BinaryOp::Atan2 => call("atan", &[a, b]),
-            _ => infix(op, a, b).unwrap_or_else(|| {
-                let name = BINARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("max", |(name, _)| *name);
-                call(name, &[a, b])
-            }),
-        }
-    }
-
-    fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String {
-        match op {
-            TernaryOp::Fma => format!("({a} * {b} + {c})"),
-            _ => {
-                let name = TERNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("clamp", |(name, _)| *name);
-                call(name, &[a, b, c])
-            }
-        }
+    fn spelling(&self, of: Spellings) -> Spelling {
+        of.glsl
     }
 
     fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {

@@ -4,6 +4,7 @@ pub(crate) mod glsl;
 pub(crate) mod rust;
 pub(crate) mod wgsl;
 
+use crate::program::operators::{Notation, Spelling, Spellings};
 use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
 
 /// A type in generated code.
@@ -71,19 +72,22 @@ pub(super) trait Dialect {
     /// A function for sine and cosine from additions, products and a rounding.
     fn sincos(&self, prefix: &Prefix) -> String {
         let name = self.global(prefix, "sincos");
-        let round = self.unary(UnaryOp::Round, "(x * 0.63661975)");
+        let round = self.unary(prefix, UnaryOp::Round, "(x * 0.63661975)");
         let lines = [
             ("quarters", round.as_str()),
             ("r", "((x - quarters * 1.5703125) - quarters * 0.0004837513) - quarters * 7.54979e-8"),
             ("z", "r * r"),
             ("s", "r + r * z * (-0.16666655 + z * (0.008332161 - z * 0.00019515296))"),
             ("c", "(1.0 - 0.5 * z) + z * z * (0.041666646 + z * (-0.0013887316 + z * 0.000024433157))"),
-            ("halves", &self.unary(UnaryOp::Floor, "(quarters * 0.5)")),
+            ("halves", &self.unary(prefix, UnaryOp::Floor, "(quarters * 0.5)")),
             ("odd", "quarters - 2.0 * halves"),
             ("even", "1.0 - odd"),
-            ("next", &self.unary(UnaryOp::Floor, "(quarters * 0.5 + 0.5)")),
-            ("sign_s", &format!("1.0 - 2.0 * (halves - 2.0 * {})", self.unary(UnaryOp::Floor, "(halves * 0.5)"))),
-            ("sign_c", &format!("1.0 - 2.0 * (next - 2.0 * {})", self.unary(UnaryOp::Floor, "(next * 0.5)"))),
+            ("next", &self.unary(prefix, UnaryOp::Floor, "(quarters * 0.5 + 0.5)")),
+            (
+                "sign_s",
+                &format!("1.0 - 2.0 * (halves - 2.0 * {})", self.unary(prefix, UnaryOp::Floor, "(halves * 0.5)")),
+            ),
+            ("sign_c", &format!("1.0 - 2.0 * (next - 2.0 * {})", self.unary(prefix, UnaryOp::Floor, "(next * 0.5)"))),
         ];
         let x = [("x".to_owned(), Type::Float)];
         let mut out = format!(
@@ -156,12 +160,38 @@ pub(super) trait Dialect {
     fn site_argument(&self) -> &'static str {
         "site"
     }
+    /// This language's spelling, of those that an operator has.
+    fn spelling(&self, of: Spellings) -> Spelling;
     /// An operation on one number.
-    fn unary(&self, op: UnaryOp, a: &str) -> String;
+    fn unary(&self, prefix: &Prefix, op: UnaryOp, a: &str) -> String {
+        self.operation(prefix, op.row().notation, op.row().spellings, &[a])
+    }
     /// An operation on two numbers.
-    fn binary(&self, prefix: &Prefix, op: BinaryOp, a: &str, b: &str) -> String;
+    fn binary(&self, prefix: &Prefix, op: BinaryOp, a: &str, b: &str) -> String {
+        self.operation(prefix, op.row().notation, op.row().spellings, &[a, b])
+    }
     /// An operation on three numbers.
-    fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String;
+    fn ternary(&self, prefix: &Prefix, op: TernaryOp, a: &str, b: &str, c: &str) -> String {
+        self.operation(prefix, op.row().notation, op.row().spellings, &[a, b, c])
+    }
+    /// An operation, as the table of operators spells it.
+    fn operation(&self, prefix: &Prefix, notation: Notation, spellings: Spellings, operands: &[&str]) -> String {
+        match self.spelling(spellings) {
+            Spelling::Same => call(notation.name(), operands),
+            Spelling::Call(name) => call(name, operands),
+            Spelling::Symbol => match operands {
+                [a] => format!("({}{a})", notation.name()),
+                _ => format!("({})", operands.join(&format!(" {} ", notation.name()))),
+            },
+            Spelling::Text(template) => fill(template, operands),
+            Spelling::Wide(method) => {
+                let wide: Vec<String> = operands.iter().map(|a| format!("f64::from({a} as f32)")).collect();
+                format!("(f64::{method}({}) as f32)", wide.join(", "))
+            }
+            Spelling::Own(name) => call(&self.global(prefix, name), operands),
+            Spelling::OfSincos { second } => self.of_pair(&call(&self.global(prefix, "sincos"), operands), second),
+        }
+    }
     /// The structure of a value that consists of several numbers with names.
     fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String;
     /// The output made of its components.
@@ -193,17 +223,30 @@ pub(super) trait Dialect {
     }
 }
 
-/// An infix operation, always in parentheses: some front ends refuse what
-/// others accept without.
-pub(super) fn infix(op: BinaryOp, a: &str, b: &str) -> Option<String> {
-    let symbol = match op {
-        BinaryOp::Add => "+",
-        BinaryOp::Subtract => "-",
-        BinaryOp::Multiply => "*",
-        BinaryOp::Divide => "/",
-        _ => return None,
-    };
-    Some(format!("({a} {symbol} {b})"))
+/// A template of the table of operators with its operands put in.
+fn fill(template: &str, operands: &[&str]) -> String {
+    let mut out = String::new();
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once('{') {
+        out.push_str(before);
+        let place = ["a", "b", "c"].iter().zip(operands).find_map(|(name, operand)| {
+            let after = after.strip_prefix(name)?;
+            let plain = after.strip_prefix('}').map(|rest| (*operand, rest));
+            plain.or_else(|| after.strip_prefix(":bare}").map(|rest| (bare(operand), rest)))
+        });
+        match place {
+            Some((operand, after)) => {
+                out.push_str(operand);
+                rest = after;
+            }
+            // A block of the language itself.
+            None => {
+                out.push('{');
+                rest = after;
+            }
+        }
+    }
+    out + rest
 }
 
 /// A call; arguments need no parentheses of their own.

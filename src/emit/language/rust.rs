@@ -2,8 +2,9 @@
 //! floating-point functions of `std`. What else is in the module, and its end,
 //! is added by [`host`](crate::emit::host).
 
-use super::{Dialect, Prefix, Type, bare, call, infix};
-use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
+use super::{Dialect, Prefix, Type};
+use crate::program::Output;
+use crate::program::operators::{Spelling, Spellings};
 
 /// Rust.
 pub(in crate::emit) struct Rust;
@@ -120,77 +121,8 @@ impl Dialect for Rust {
         format!("f32::from_bits({word})")
     }
 
-    fn unary(&self, op: UnaryOp, a: &str) -> String {
-        // Functions that are not correctly rounded go through f64 and round once.
-        let wide = |name: &str| format!("(f64::{name}(f64::from({a} as f32)) as f32)");
-        match op {
-            UnaryOp::Negate => format!("(-{a})"),
-            UnaryOp::Abs => call("f32::abs", &[a]),
-            UnaryOp::Ceil => call("f32::ceil", &[a]),
-            UnaryOp::Floor => call("f32::floor", &[a]),
-            UnaryOp::Round => call("f32::round_ties_even", &[a]),
-            UnaryOp::Trunc => call("f32::trunc", &[a]),
-            UnaryOp::Sqrt => call("f32::sqrt", &[a]),
-            // Blocks, because written in place these would double their operand, and nested ones exponentially.
-            UnaryOp::Fract => format!("({{ let t: f32 = {}; t - f32::floor(t) }})", bare(a)),
-            UnaryOp::Saturate => call("f32::min", &[&call("f32::max", &[a, "0.0"]), "1.0"]),
-            UnaryOp::Sign => format!(
-                "({{ let t: f32 = {}; if t > 0.0 {{ 1.0 }} else if t < 0.0 {{ -1.0 }} else {{ t * 0.0 }} }})",
-                bare(a)
-            ),
-            UnaryOp::InverseSqrt => format!("((1.0 / f64::sqrt(f64::from({a} as f32))) as f32)"),
-            UnaryOp::Acos => wide("acos"),
-            UnaryOp::Acosh => wide("acosh"),
-            UnaryOp::Asin => wide("asin"),
-            UnaryOp::Asinh => wide("asinh"),
-            UnaryOp::Atan => wide("atan"),
-            UnaryOp::Atanh => wide("atanh"),
-            UnaryOp::Cos => wide("cos"),
-            UnaryOp::Cosh => wide("cosh"),
-            UnaryOp::Degrees => wide("to_degrees"),
-            UnaryOp::Exp => wide("exp"),
-            UnaryOp::Exp2 => wide("exp2"),
-            UnaryOp::Log => wide("ln"),
-            UnaryOp::Log2 => wide("log2"),
-            UnaryOp::Radians => wide("to_radians"),
-            // Printed as calls of the module's own function.
-            UnaryOp::PortableCos | UnaryOp::PortableSin => String::new(),
-            UnaryOp::Sin => wide("sin"),
-            UnaryOp::Sinh => wide("sinh"),
-            UnaryOp::Tan => wide("tan"),
-            UnaryOp::Tanh => wide("tanh"),
-        }
-    }
-
-    fn binary(&self, _: &Prefix, op: BinaryOp, a: &str, b: &str) -> String {
-        let wide = |name: &str| format!("(f64::{name}(f64::from({a} as f32), f64::from({b} as f32)) as f32)");
-        match op {
-            BinaryOp::Remainder => format!("({a} % {b})"),
-            BinaryOp::Min => call("f32::min", &[a, b]),
-            BinaryOp::Max => call("f32::max", &[a, b]),
-            BinaryOp::Step => format!("(if {a} <= {b} {{ 1.0 }} else {{ 0.0 }})"),
-            BinaryOp::Atan2 => wide("atan2"),
-            BinaryOp::Pow => wide("powf"),
-            _ => infix(op, a, b).unwrap_or_default(),
-        }
-    }
-
-    fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String {
-        let wide = |text: &str| format!("f64::from({text} as f32)");
-        match op {
-            TernaryOp::Clamp => call("f32::min", &[&call("f32::max", &[a, b]), c]),
-            TernaryOp::Fma => call("f32::mul_add", &[a, b, c]),
-            TernaryOp::Mix => {
-                let (a, b, c) = (wide(a), wide(b), wide(c));
-                format!("(({a} * (1.0 - {c}) + {b} * {c}) as f32)")
-            }
-            TernaryOp::Smoothstep => {
-                let (a, b, c) = (wide(a), wide(b), wide(c));
-                format!(
-                    "({{ let t = (({c} - {a}) / ({b} - {a})).max(0.0).min(1.0); (t * t * (3.0 - 2.0 * t)) as f32 }})"
-                )
-            }
-        }
+    fn spelling(&self, of: Spellings) -> Spelling {
+        of.rust
     }
 
     fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {

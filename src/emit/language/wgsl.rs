@@ -1,7 +1,8 @@
 //! WGSL.
 
-use super::{Dialect, Prefix, Type, call, infix};
-use crate::program::{BINARY_FUNCTIONS, BinaryOp, Output, TERNARY_FUNCTIONS, TernaryOp, UNARY_FUNCTIONS, UnaryOp};
+use super::{Dialect, Prefix, Type};
+use crate::program::Output;
+use crate::program::operators::{Spelling, Spellings};
 
 /// WGSL, with nothing but functions, constants and one structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,23 +102,8 @@ impl Dialect for Wgsl {
         format!("bitcast<f32>({word})")
     }
 
-    fn unary(&self, op: UnaryOp, a: &str) -> String {
-        match UNARY_FUNCTIONS.iter().find(|(_, o)| *o == op) {
-            Some((name, _)) => call(name, &[a]),
-            None => format!("(-{a})"),
-        }
-    }
-
-    fn binary(&self, _: &Prefix, op: BinaryOp, a: &str, b: &str) -> String {
-        match BINARY_FUNCTIONS.iter().find(|(_, o)| *o == op) {
-            Some((name, _)) => call(name, &[a, b]),
-            None => infix(op, a, b).unwrap_or_else(|| format!("({a} % {b})")),
-        }
-    }
-
-    fn ternary(&self, op: TernaryOp, a: &str, b: &str, c: &str) -> String {
-        let name = TERNARY_FUNCTIONS.iter().find(|(_, o)| *o == op).map_or("fma", |(name, _)| *name);
-        call(name, &[a, b, c])
+    fn spelling(&self, of: Spellings) -> Spelling {
+        of.wgsl
     }
 
     fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {

@@ -5,7 +5,8 @@ use super::scope::Env;
 use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
-use crate::program::pool::{self, BinaryOp, ExprId, Node, TernaryOp, UnaryOp};
+use crate::program::operators::{BinaryOp, Operator, TernaryOp, UnaryOp};
+use crate::program::pool::{ExprId, Node};
 use crate::table::expr::Expr;
 
 /// Functions that are not operations on numbers.
@@ -52,30 +53,32 @@ impl Lowering<'_> {
         if let Some(callee) = self.callee(name, env.scope) {
             return self.call_in_order(callee, arguments, span, env);
         }
-        if let Some((_, op)) = pool::UNARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
-            arity(1)?;
-            let a = self.term(&arguments[0], env, Expected::Anything)?;
-            // What claims an accuracy cannot rely on a sine that may be off by 2^-11.
-            let op = match op {
-                UnaryOp::Sin if self.portable => UnaryOp::PortableSin,
-                UnaryOp::Cos if self.portable => UnaryOp::PortableCos,
-                op => *op,
-            };
-            return self.map1(op, a, span);
+        match Operator::named(name) {
+            Some(Operator::Unary(op)) => {
+                arity(1)?;
+                let a = self.term(&arguments[0], env, Expected::Anything)?;
+                // What claims an accuracy cannot rely on a sine that may be off by 2^-11.
+                let op = match op {
+                    UnaryOp::Sin if self.portable => UnaryOp::PortableSin,
+                    UnaryOp::Cos if self.portable => UnaryOp::PortableCos,
+                    op => op,
+                };
+                self.map1(op, a, span)
+            }
+            Some(Operator::Binary(op)) => {
+                arity(2)?;
+                let a = self.term(&arguments[0], env, Expected::Anything)?;
+                let b = self.term(&arguments[1], env, Expected::Anything)?;
+                self.map2(op, a, b, span)
+            }
+            Some(Operator::Ternary(op)) => {
+                arity(3)?;
+                let terms = [0, 1, 2].map(|i| self.term(&arguments[i], env, Expected::Anything));
+                let [a, b, c] = terms;
+                self.map3(op, a?, b?, c?, span)
+            }
+            None => self.vector_call(function, arguments, span, env, arity),
         }
-        if let Some((_, op)) = pool::BINARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
-            arity(2)?;
-            let a = self.term(&arguments[0], env, Expected::Anything)?;
-            let b = self.term(&arguments[1], env, Expected::Anything)?;
-            return self.map2(*op, a, b, span);
-        }
-        if let Some((_, op)) = pool::TERNARY_FUNCTIONS.iter().find(|(n, _)| *n == name) {
-            arity(3)?;
-            let terms = [0, 1, 2].map(|i| self.term(&arguments[i], env, Expected::Anything));
-            let [a, b, c] = terms;
-            return self.map3(*op, a?, b?, c?, span);
-        }
-        self.vector_call(function, arguments, span, env, arity)
     }
 
     pub(super) fn map1(&mut self, op: UnaryOp, a: Term, span: Span) -> Result<Term> {
@@ -93,7 +96,7 @@ impl Lowering<'_> {
     }
 
     /// An operation on one number. In a function that is called with constants,
-    /// what they make constant is computed when the shader runs, unless nobody can tell.
+    /// what they make constant is computed when the shader runs, unless the result is bit-identical.
     fn unary(&mut self, op: UnaryOp, a: ExprId, span: Span) -> Result<ExprId> {
         let result = match self.calling.is_empty() {
             true => self.pool.unary(op, a),
@@ -341,10 +344,7 @@ impl Lowering<'_> {
     pub(super) fn unknown_function(&self, function: &Spanned<String>, env: &Env) -> Diagnostic {
         let own = self.callable(env.scope);
         let known = || {
-            let named =
-                pool::UNARY_FUNCTIONS.iter().map(|(n, _)| *n).chain(pool::BINARY_FUNCTIONS.iter().map(|(n, _)| *n));
-            let named = named.chain(pool::TERNARY_FUNCTIONS.iter().map(|(n, _)| *n));
-            let named = named.chain(BUILT_IN);
+            let named = Operator::functions().map(|(name, _)| name).chain(BUILT_IN);
             own.iter().map(String::as_str).chain(named)
         };
         let error = Diagnostic::error(codes::CALL, format!("there is no function `{}`", function.value))

@@ -12,7 +12,8 @@ use super::scope::Env;
 use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
-use crate::program::pool::{BinaryOp, ExprId};
+use crate::program::operators::BinaryOp;
+use crate::program::pool::ExprId;
 use crate::table::expr::{Expr, ExprKind, SumOver};
 use crate::table::{self, CaseBody, ConstantValue, Function, FunctionBody, Helper, names};
 

@@ -10,7 +10,7 @@ use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
-use crate::program::pool;
+use crate::program::operators::Operator;
 use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row};
 use crate::table::{self, FunctionBody, HitPolicy, Table, names};
 
@@ -303,10 +303,7 @@ impl<'t> Lowering<'t> {
                 Callee::Function(function) => (&function.name, "a function"),
             };
             let checked = names::check_inner(&name.value, what, name.span).and_then(|()| {
-                let built_in = pool::UNARY_FUNCTIONS.iter().any(|(n, _)| *n == name.value)
-                    || pool::BINARY_FUNCTIONS.iter().any(|(n, _)| *n == name.value)
-                    || pool::TERNARY_FUNCTIONS.iter().any(|(n, _)| *n == name.value)
-                    || calls::BUILT_IN.contains(&name.value.as_str());
+                let built_in = Operator::named(&name.value).is_some() || calls::BUILT_IN.contains(&name.value.as_str());
                 if built_in {
                     let message = format!("`{}` is a function of the language", name.value);
                     return Err(Diagnostic::error(codes::RESERVED_NAME, message).at(name.span, "choose another name"));

@@ -9,7 +9,8 @@ use super::scope::Env;
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::LevelTerm;
-use crate::program::pool::{self, BinaryOp, Comparison, CondId, ExprId, UnaryOp};
+use crate::program::operators::{BinaryOp, UnaryOp};
+use crate::program::pool::{self, Comparison, CondId, ExprId};
 use crate::table::expr::{self as ast, Expr, ExprKind};
 
 /// Deepest and largest value of one row, references included.
@@ -223,12 +224,8 @@ impl Lowering<'_> {
                 }))
             }
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder => {
-                let op = match op {
-                    Op::Add => BinaryOp::Add,
-                    Op::Subtract => BinaryOp::Subtract,
-                    Op::Multiply => BinaryOp::Multiply,
-                    Op::Divide => BinaryOp::Divide,
-                    _ => BinaryOp::Remainder,
+                let Some(op) = BinaryOp::of_symbol(op) else {
+                    return Err(type_error(span, &format!("`{}`", op.symbol()), "expected an operation on numbers"));
                 };
                 let left = self.term(a, env, Expected::Anything)?;
                 let right = self.term(b, env, Expected::Anything)?;
