@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::{ABSENT, Column, Columns};
 use crate::program::{Domain, Input, Program};
-use crate::table::read_bytes;
+use crate::text::file::{read_bytes, shown};
 
 /// What every capture begins with.
 pub const MAGIC: [u8; 8] = *b"\x89umbrage";
@@ -173,7 +173,7 @@ pub fn is_capture(bytes: &[u8]) -> bool {
 /// When the file cannot be read, is damaged, or holds other inputs than the table's.
 pub fn read(program: &Program, path: &Path) -> Result<Capture, Failure> {
     let bytes = read_bytes(path, MAX_BYTES)?;
-    parse(program, &bytes).map_err(|error| Failure::bare(path.to_string_lossy().replace('\\', "/"), error))
+    parse(program, &bytes).map_err(|error| Failure::bare(shown(path), error))
 }
 
 /// Reads a capture of a table from memory.

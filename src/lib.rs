@@ -56,7 +56,7 @@ pub mod stabilise;
 pub mod table;
 #[cfg(feature = "render")]
 pub mod technique;
-mod text;
+pub mod text;
 #[cfg(feature = "gpu")]
 pub mod tune;
 pub mod tuned;

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::plan::{LookupPlace, Plan, Shape};
 use crate::program::Program;
-use crate::table::read_text;
+use crate::text::file::{read_text, shown};
 
 const VERSION: u32 = 1;
 const MAX_BYTES: u64 = 16 << 20;
@@ -84,7 +84,7 @@ impl Tuned {
         if !path.exists() {
             return Ok(None);
         }
-        let name = path.to_string_lossy().replace('\\', "/");
+        let name = shown(path);
         let source = Source::new(name, read_text(path, MAX_BYTES)?);
         let tuned: Self = ron::from_str(&source.text).map_err(|error| {
             let at = |p: ron::error::Position| Source::offset(&source.text, p.line, p.col).min(source.text.len());

@@ -7,14 +7,13 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::{
-    Artifact, Built, NamedProfile, Options, beside, find_tables, profile_of, programs, shown, tuned_in, weigh,
-};
+use super::{Artifact, Built, NamedProfile, Options, beside, find_tables, profile_of, programs, tuned_in, weigh};
 use crate::analyse::{self, Levels};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::profile;
 use crate::program::Program;
 use crate::table::Table;
+use crate::text::file::shown;
 use crate::tuned::slug;
 
 /// What a run is asked for.

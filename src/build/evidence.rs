@@ -5,11 +5,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Options, shown, wanted};
+use super::{Options, wanted};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, Profile};
 use crate::program::Program;
-use crate::table::io_reason;
+use crate::text::file::{io_reason, shown};
 use crate::tuned::Tuned;
 
 /// A profile and the name of its file.

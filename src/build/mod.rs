@@ -18,7 +18,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::{self, Beside, Target};
 use crate::plan::{LookupPlace, Plan, PlanOptions, Proof, Shape, Weights, is_unsuitable};
 use crate::program::Program;
-use crate::table::io_reason;
+use crate::text::file::{PendingFile, io_reason, shown, unwritable};
 use crate::tuned::{Auto, Tuned};
 
 pub use batch::{Batch, Request, run};
@@ -241,11 +241,6 @@ pub fn find_tables(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
-/// A path as it is shown in messages.
-fn shown(path: &Path) -> String {
-    path.to_string_lossy().replace('\\', "/")
-}
-
 /// Writes files below a directory, all or none as far as the file system
 /// allows, and leaves alone those that already say the same. Returns how many
 /// were written.
@@ -253,11 +248,6 @@ fn shown(path: &Path) -> String {
 /// # Errors
 /// When a directory or file cannot be written; the message names it.
 pub fn write(directory: &Path, files: &[Artifact]) -> Result<usize, Failure> {
-    let fail = |path: &Path, error: &std::io::Error| {
-        let message = format!("cannot be written: {}", io_reason(error));
-        let help = "choose another place, or mend its permissions";
-        Failure::bare(shown(path), Diagnostic::error(codes::UNWRITABLE, message).help(help))
-    };
     let mut pending = Vec::new();
     for file in files {
         let path = directory.join(&file.path);
@@ -265,29 +255,12 @@ pub fn write(directory: &Path, files: &[Artifact]) -> Result<usize, Failure> {
             continue;
         }
         let parent = path.parent().unwrap_or(directory);
-        std::fs::create_dir_all(parent).map_err(|e| fail(parent, &e))?;
-        let mut temporary = tempfile::NamedTempFile::new_in(parent).map_err(|e| fail(parent, &e))?;
-        temporary.write_all(&file.contents).map_err(|e| fail(&path, &e))?;
-        if path.is_dir() {
-            return Err(fail(&path, &std::io::Error::from(std::io::ErrorKind::IsADirectory)));
-        }
-        pending.push((temporary, path));
+        std::fs::create_dir_all(parent).map_err(|error| unwritable(parent, &error))?;
+        let mut new = PendingFile::create(&path)?;
+        new.write_all(&file.contents).map_err(|error| unwritable(&path, &error))?;
+        pending.push(new);
     }
     let count = pending.len();
-    for (temporary, path) in pending {
-        set_readable(&temporary);
-        temporary.persist(&path).map_err(|e| fail(&path, &e.error))?;
-    }
+    pending.into_iter().try_for_each(PendingFile::commit)?;
     Ok(count)
 }
-
-/// Temporary files are private; what they become is not.
-#[cfg(unix)]
-fn set_readable(file: &tempfile::NamedTempFile) {
-    use std::os::unix::fs::PermissionsExt;
-    // If it fails the file stays private, which is no reason not to write it.
-    let _ = file.as_file().set_permissions(std::fs::Permissions::from_mode(0o644));
-}
-
-#[cfg(not(unix))]
-fn set_readable(_: &tempfile::NamedTempFile) {}

@@ -12,6 +12,7 @@ use std::time::UNIX_EPOCH;
 
 use super::{Artifact, Request, find_tables};
 use crate::diag::fnv1a;
+use crate::text::file;
 
 /// Name of the stamp in `OUT_DIR`.
 const NAME: &str = "umbrage.stamp";
@@ -65,7 +66,7 @@ pub(super) fn leave(
 ) {
     let path = place.join(NAME);
     match text(request, output, warnings, inputs, files) {
-        Some(text) => drop(std::fs::write(path, text)),
+        Some(text) => drop(file::write(&path, text.as_bytes())),
         None => drop(std::fs::remove_file(path)),
     }
 }

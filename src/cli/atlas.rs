@@ -11,6 +11,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture;
 use crate::profile;
 use crate::program::Program;
+use crate::text::file::shown;
 
 /// Arguments of `umbrage atlas`.
 #[derive(clap::Args)]
@@ -67,7 +68,7 @@ impl Form {
                 let error =
                     Diagnostic::error(codes::UNWRITABLE, "the name does not say which form the atlas is to have")
                         .help("let it end in .svg, .png or .html");
-                Err(Failure::bare(path.to_string_lossy().replace('\\', "/"), error))
+                Err(Failure::bare(shown(path), error))
             }
         }
     }

@@ -16,6 +16,7 @@ use crate::gpu::{AdapterChoice, Gpu};
 use crate::plan::Weights;
 use crate::profile;
 use crate::program::Program;
+use crate::text::file::shown;
 use crate::tuned::{Auto, Tuned};
 
 /// Arguments of `umbrage diff`.
@@ -81,7 +82,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     {
         let message = format!("is a profile of the table `{}`, which is not among those compared", unused.table);
         let error = Diagnostic::error(codes::OTHER_PROFILE, message).help("give profiles of these tables");
-        return Err(Failure::bare(path.to_string_lossy().replace('\\', "/"), error).into());
+        return Err(Failure::bare(shown(path), error).into());
     }
     let frames = match (arguments.frames.as_slice(), programs.as_slice()) {
         ([], _) => None,

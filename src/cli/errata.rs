@@ -11,6 +11,7 @@ use crate::analyse::trial;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::program::Program;
 use crate::table::Table;
+use crate::text::file::shown;
 
 /// Arguments of `umbrage errata`.
 #[derive(clap::Args)]
@@ -36,7 +37,7 @@ pub(super) fn run(arguments: &ErrataArguments) -> Result<Outcome> {
         let [printed, mended] = pair else {
             let error = Diagnostic::error(codes::UNREADABLE, "has no partner");
             let help = "tables come in pairs: one as printed, then the same one mended";
-            return Err(Failure::bare(pair[0].to_string_lossy(), error.help(help)).into());
+            return Err(Failure::bare(shown(&pair[0]), error.help(help)).into());
         };
         pairs.push((Program::read(printed)?, Program::read(mended)?, Table::read(mended)?));
     }

@@ -10,7 +10,7 @@ use super::{Outcome, Result};
 use crate::build;
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::format;
-use crate::table::{self, io_reason};
+use crate::text::file::{io_reason, not_utf8, read_text, shown};
 
 /// Largest table on standard input, in bytes.
 const MAX_BYTES: u64 = 16 << 20;
@@ -104,8 +104,8 @@ fn write(done: &[Formatted], report: &Report) -> Result<Outcome> {
 
 fn read(path: &Path) -> std::result::Result<Arc<Source>, Failure> {
     if path.as_os_str() != "-" {
-        let name = path.to_string_lossy().replace('\\', "/");
-        return Ok(Source::new(name, table::read_text(path, MAX_BYTES)?));
+        let name = shown(path);
+        return Ok(Source::new(name, read_text(path, MAX_BYTES)?));
     }
     let mut bytes = Vec::new();
     let fail = |message: String| {
@@ -117,6 +117,6 @@ fn read(path: &Path) -> std::result::Result<Arc<Source>, Failure> {
     if bytes.len() as u64 > MAX_BYTES {
         return Err(fail("is larger than 16 MiB".to_owned()));
     }
-    let text = String::from_utf8(bytes).map_err(|error| fail(table::not_utf8(&error)))?;
+    let text = String::from_utf8(bytes).map_err(|error| fail(not_utf8(&error)))?;
     Ok(Source::new("standard input", text))
 }

@@ -213,7 +213,7 @@ pub fn main() -> ExitCode {
         // Whoever read our output has seen enough.
         Err(Error::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(Error::Stdout(error)) => {
-            let message = format!("cannot be written: {}", crate::table::io_reason(&error));
+            let message = format!("cannot be written: {}", crate::text::file::io_reason(&error));
             report.failure(&Failure::bare("standard output", Diagnostic::error(codes::UNWRITABLE, message)));
             ExitCode::from(2)
         }

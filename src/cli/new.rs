@@ -8,6 +8,7 @@ use super::{Outcome, Result};
 use crate::build::{self, Artifact};
 use crate::diag::{Diagnostic, Failure, Span, codes};
 use crate::table::names;
+use crate::text::file::shown;
 
 const TABLE: &str = include_str!("new/starter.ron");
 const SCRIPT: &str = include_str!("new/build.rs.txt");
@@ -56,7 +57,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
                 false => "add its line to that script yourself, and use `--table-only`",
             };
             let error = Diagnostic::error(codes::EXISTS, "exists already; nothing was written").help(help);
-            return Err(Failure::bare(path.to_string_lossy().replace('\\', "/"), error).into());
+            return Err(Failure::bare(shown(&path), error).into());
         }
     }
     build::write(&arguments.directory, &files)?;

@@ -7,14 +7,15 @@ use crate::diag::Failure;
 use crate::diag::{Diagnostic, codes};
 use crate::profile::{self, Fitted};
 use crate::program::Program;
+use crate::text::file::shown;
 use crate::tuned::{Choice, Tuned};
 
 /// Reads the profile of a table; says what of it was lost, if the table has changed.
 pub(super) fn read(program: &Program, path: Option<&Path>, report: &Report) -> Result<Option<Fitted>, Failure> {
     let Some(path) = path else { return Ok(None) };
-    let fitted = profile::fit(program, profile::read(path)?, &path.to_string_lossy().replace('\\', "/"))?;
+    let fitted = profile::fit(program, profile::read(path)?, &shown(path))?;
     if let Some(warning) = &fitted.warning {
-        report.failure(&Failure::bare(path.to_string_lossy().replace('\\', "/"), warning.clone()));
+        report.failure(&Failure::bare(shown(path), warning.clone()));
     }
     Ok(Some(fitted))
 }
@@ -23,7 +24,7 @@ pub(super) fn read(program: &Program, path: Option<&Path>, report: &Report) -> R
 pub(super) fn tuned(path: &Path) -> Result<Tuned, Failure> {
     Tuned::read(path)?.ok_or_else(|| {
         let error = Diagnostic::error(codes::UNREADABLE, "cannot be read: no such file or directory");
-        Failure::bare(path.to_string_lossy().replace('\\', "/"), error.help("`umbrage tune` writes such files"))
+        Failure::bare(shown(path), error.help("`umbrage tune` writes such files"))
     })
 }
 

@@ -19,6 +19,7 @@ use crate::gpu::{AdapterChoice, Gpu};
 use crate::plan::Shape;
 use crate::profile::fit;
 use crate::program::Program;
+use crate::text::file::shown;
 use crate::tune::{self, Kind, Options, Tuning};
 use crate::tuned::Tuned;
 
@@ -91,7 +92,7 @@ pub(super) struct Arguments {
 /// Measures, shows the ranking, and keeps the choice.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let program = Program::read(&arguments.table)?;
-    let name: Vec<String> = arguments.profile.iter().map(|path| path.to_string_lossy().replace('\\', "/")).collect();
+    let name: Vec<String> = arguments.profile.iter().map(|path| shown(path)).collect();
     let name = name.join(", ");
     let fitted = fit(&program, profile::read_all(&arguments.profile, &[])?, &name)?;
     let mut outcome = Outcome::Clean;
@@ -146,9 +147,9 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut tuned = kept;
     tuned.set(tuning.choice(&program, &weights));
     std::fs::create_dir_all(&arguments.output).map_err(|error| {
-        let message = format!("cannot be made: {}", crate::table::io_reason(&error));
+        let message = format!("cannot be made: {}", crate::text::file::io_reason(&error));
         let error = Diagnostic::error(codes::UNWRITABLE, message).help("choose another directory with `--output`");
-        Failure::bare(arguments.output.to_string_lossy(), error)
+        Failure::bare(shown(&arguments.output), error)
     })?;
     let mut sink = Sink::create(&path)?;
     sink.write_all(tuned.to_ron().as_bytes()).map_err(|error| sink.failure(&error))?;
@@ -198,7 +199,7 @@ fn page(
     path: &std::path::Path,
 ) -> std::result::Result<Sink, Failure> {
     let error = Diagnostic::error(codes::UNWRITABLE, "cannot be written: this build has no reports");
-    Err(Failure::bare(path.to_string_lossy(), error.help("build umbrage with the feature `report`")))
+    Err(Failure::bare(shown(path), error.help("build umbrage with the feature `report`")))
 }
 
 fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {

@@ -13,6 +13,7 @@ use crate::explain::why::{self, Why};
 use crate::profile::{self, Profile};
 use crate::program::Program;
 use crate::show::{self, Precision};
+use crate::text::file::shown;
 
 /// Arguments of `umbrage why`.
 #[derive(clap::Args)]
@@ -37,7 +38,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         return Err(missing(&program, arguments.case).into());
     };
     let fitted = profiled::read(&program, arguments.profile.as_deref(), report)?;
-    let name = arguments.profile.as_ref().map(|path| path.to_string_lossy().replace('\\', "/")).unwrap_or_default();
+    let name = arguments.profile.as_ref().map(|path| shown(path)).unwrap_or_default();
     let weights = fitted.as_ref().map(|fitted| fitted.weights(&program, &name)).transpose()?;
     let why = why::why(&program, row, weights.as_ref());
     let shares = fitted.as_ref().map(|fitted| shares(&fitted.profile, arguments.case));

@@ -14,7 +14,7 @@ use serde::de::{self, Deserialize, Deserializer, Visitor};
 use super::{Profile, Scene, StateInput, Tiles};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::program::MAX_LEVELS;
-use crate::table::read_text;
+use crate::text::file::{read_text, shown};
 
 const VERSION: u32 = 1;
 /// Largest accepted file.
@@ -92,7 +92,7 @@ fn one() -> f64 {
 /// # Ok::<(), umbrage::diag::Failure>(())
 /// ```
 pub fn read(path: &Path) -> Result<Profile, Failure> {
-    let name = path.to_string_lossy().replace('\\', "/");
+    let name = shown(path);
     parse(&Source::new(name, read_text(path, MAX_BYTES)?))
 }
 

@@ -9,7 +9,7 @@ use glam::{DMat4, DVec3};
 
 use super::shapes::solid::Triangle;
 use crate::diag::{Diagnostic, codes};
-use crate::table::io_reason;
+use crate::text::file::{io_reason, shown};
 
 /// Most triangles of a mesh.
 const MAX_TRIANGLES: usize = 20_000_000;
@@ -37,7 +37,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Triangle>, Diagnostic> {
 }
 
 fn broken(path: &Path, what: &str) -> Diagnostic {
-    Diagnostic::error(codes::MESH, format!("the mesh `{}` {what}", path.to_string_lossy().replace('\\', "/")))
+    Diagnostic::error(codes::MESH, format!("the mesh `{}` {what}", shown(path)))
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {

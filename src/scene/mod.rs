@@ -17,7 +17,8 @@ use std::path::Path;
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::scene::light::{Light, Lights, Punctual};
 use crate::scene::view::Camera;
-use crate::table;
+use crate::text::closest::nearest;
+use crate::text::file;
 
 pub use shapes::Shape;
 pub use shapes::solid::Triangle;
@@ -93,15 +94,15 @@ impl Scene {
         if path.extension().is_none() && !path.exists() {
             let error = Diagnostic::error(codes::SCENE, format!("there is no scene `{name}`"));
             let known: Vec<&str> = Self::names().collect();
-            let error = match table::nearest(name, known.iter().copied()) {
+            let error = match nearest(name, known.iter().copied()) {
                 Some(close) => error.help(format!("did you mean `{close}`?")),
                 None => error,
             };
             let known = format!("the scenes are: {}; or give the path of a scene file (*.ron)", known.join(", "));
             return Err(Failure::bare("", error.help(known)));
         }
-        let shown = path.to_string_lossy().replace('\\', "/");
-        let source = Source::new(shown, table::read_text(path, MAX_BYTES)?);
+        let shown = file::shown(path);
+        let source = Source::new(shown, file::read_text(path, MAX_BYTES)?);
         let stem = path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned());
         Self::parse(&stem, &source, path.parent().unwrap_or(Path::new("")))
     }

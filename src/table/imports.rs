@@ -3,8 +3,9 @@
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
-use super::{MAX_BYTES, Table, names, read, read_text};
+use super::{MAX_BYTES, Table, names, read};
 use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::text::file::{read_text, shown};
 
 /// Most tables in a chain of imports.
 const MAX_CHAIN: usize = 8;
@@ -33,9 +34,9 @@ fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
         };
         let folder = Path::new(&source.name).parent().unwrap_or(Path::new(""));
         let path = plain(&folder.join(&import.path.value));
-        let name = path.to_string_lossy().replace('\\', "/");
+        let name = shown(&path);
         if chain.contains(&path) {
-            let shown = chain.iter().chain([&path]).map(|p| p.to_string_lossy().replace('\\', "/"));
+            let shown = chain.iter().chain([&path]).map(|p| shown(p));
             let message = format!("the imports form a circle: {}", shown.collect::<Vec<_>>().join(" -> "));
             return Err(fail(error(message, "leads back").help("move what both need into a table of its own")));
         }

@@ -13,15 +13,16 @@ mod imports;
 pub(crate) mod lex;
 pub(crate) mod names;
 pub(crate) mod parse;
+mod piece;
 mod read;
 
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::diag::{Diagnostic, Failure, Source, Span, Spanned, codes};
+use crate::diag::{Failure, Source, Span, Spanned};
+use crate::text::file::{read_text, shown};
 use expr::Expr;
 
-pub(crate) use crate::text::raw::nearest;
 pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
 pub use parse::MAX_DEPTH;
 
@@ -308,7 +309,7 @@ impl Table {
     /// When the file cannot be read, is not UTF-8, or is not a well-formed table.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Failure> {
         let path = path.as_ref();
-        let name = path.to_string_lossy().replace('\\', "/");
+        let name = shown(path);
         Self::parse(Source::new(&*name, read_text(path, MAX_BYTES)?))
     }
 
@@ -331,51 +332,5 @@ impl Table {
     /// Whether a text is a table, as far as that can be said without reading what it imports.
     pub(crate) fn well_formed(source: &Arc<Source>) -> Result<(), Failure> {
         read::table(source).map(drop).map_err(|diagnostics| Failure { source: source.clone(), diagnostics })
-    }
-}
-
-/// Reads a UTF-8 file of bounded size, with errors that say what to do.
-pub(crate) fn read_text(path: &Path, max: u64) -> Result<String, Failure> {
-    String::from_utf8(read_bytes(path, max)?).map_err(|e| unreadable(path, &not_utf8(&e), "save it as UTF-8"))
-}
-
-/// Reads a file of bounded size, with errors that say what to do.
-pub(crate) fn read_bytes(path: &Path, max: u64) -> Result<Vec<u8>, Failure> {
-    let io = |e: std::io::Error| {
-        unreadable(path, &format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions")
-    };
-    let metadata = std::fs::metadata(path).map_err(io)?;
-    if metadata.is_dir() {
-        return Err(unreadable(path, "is a directory, a file was expected", "name the file itself"));
-    }
-    if metadata.len() > max {
-        return Err(unreadable(path, &format!("is larger than {} MiB", max >> 20), "split it"));
-    }
-    std::fs::read(path).map_err(io)
-}
-
-fn unreadable(path: &Path, message: &str, help: &str) -> Failure {
-    let name = path.to_string_lossy().replace('\\', "/");
-    Failure::bare(name, Diagnostic::error(codes::UNREADABLE, message).help(help))
-}
-
-/// Says that bytes are not text, and where.
-pub(crate) fn not_utf8(error: &std::string::FromUtf8Error) -> String {
-    let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-    let (line, column) = Source::new("", String::from_utf8_lossy(good)).line_column(good.len());
-    format!("is not UTF-8 text at line {line}, column {column}")
-}
-
-/// The reason of an I/O error in words that do not depend on the platform.
-pub(crate) fn io_reason(error: &std::io::Error) -> String {
-    use std::io::ErrorKind;
-    match error.kind() {
-        ErrorKind::NotFound => "no such file or directory".to_owned(),
-        ErrorKind::PermissionDenied => "permission denied".to_owned(),
-        ErrorKind::NotADirectory => "a part of the path is not a directory".to_owned(),
-        ErrorKind::IsADirectory => "it is a directory".to_owned(),
-        ErrorKind::StorageFull => "no space left".to_owned(),
-        ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
-        _ => error.to_string(),
     }
 }

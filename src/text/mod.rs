@@ -2,5 +2,7 @@
 //!
 //! Nothing here knows what a table is.
 
+pub(crate) mod closest;
+pub mod file;
 pub(crate) mod raw;
 pub(crate) mod tokens;

@@ -11,9 +11,9 @@ use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 
+use super::closest::nearest;
+use super::tokens;
 use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
-use crate::table::expr::Expr;
-use crate::table::parse;
 
 /// A piece of RON, not yet interpreted.
 #[derive(Debug, Clone, Copy)]
@@ -26,49 +26,12 @@ impl<'de: 'a, 'a> Deserialize<'de> for Raw<'a> {
     }
 }
 
-/// Without the white space and comments around it.
+/// A piece without the white space and comments around it.
 /// (`RawValue::trim` does the same by parsing the piece once more.)
 fn trim(text: &str) -> &str {
-    let rest = trim_start(text);
+    let rest = tokens::skip_blank(text).trim_end();
     // Comments behind a value belong to its piece where no comma comes before them.
-    if rest.contains("//") || rest.contains("/*") { &rest[..super::tokens::significant(rest)] } else { rest }
-}
-
-fn trim_start(text: &str) -> &str {
-    let mut rest = text.trim();
-    loop {
-        let after = if rest.starts_with("//") {
-            rest.find('\n').map(|end| &rest[end..])
-        } else if rest.starts_with("/*") {
-            block_comment_end(rest).map(|end| &rest[end..])
-        } else {
-            None
-        };
-        match after {
-            Some(after) => rest = after.trim_start(),
-            None => return rest,
-        }
-    }
-}
-
-/// Where the block comment at the start of a text ends; they nest.
-pub(crate) fn block_comment_end(text: &str) -> Option<usize> {
-    let mut depth = 0_usize;
-    let mut at = 0;
-    loop {
-        if text[at..].starts_with("/*") {
-            depth += 1;
-            at += 2;
-        } else if text[at..].starts_with("*/") {
-            depth -= 1;
-            at += 2;
-        } else {
-            at += text[at..].chars().next()?.len_utf8();
-        }
-        if depth == 0 {
-            return Some(at);
-        }
-    }
+    if rest.contains("//") || rest.contains("/*") { &rest[..tokens::significant(rest)] } else { rest }
 }
 
 /// A map in the order written, duplicates included.
@@ -103,6 +66,13 @@ impl<'de: 'a, 'a> Deserialize<'de> for RawMap<'a> {
     }
 }
 
+impl<'a> Raw<'a> {
+    /// The piece as it is written.
+    pub(crate) fn text(self) -> &'a str {
+        self.0
+    }
+}
+
 /// Reads pieces of one source.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader<'a> {
@@ -119,18 +89,9 @@ impl<'a> Reader<'a> {
         Raw(&self.source.text)
     }
 
-    /// Where the first thing stands that is neither blank nor a comment.
+    /// The offset of the first thing that is neither blank nor a comment.
     pub(crate) fn first(&self) -> usize {
-        let mut rest = self.source.text.as_str();
-        loop {
-            rest = rest.trim_start();
-            let end = match rest.get(..2) {
-                Some("//") => rest.find('\n').unwrap_or(rest.len()),
-                Some("/*") => rest.find("*/").map_or(rest.len(), |i| i + 2),
-                _ => return self.source.text.len() - rest.len(),
-            };
-            rest = &rest[end..];
-        }
+        self.source.text.len() - tokens::skip_blank(&self.source.text).len()
     }
 
     /// Where a piece stands.
@@ -184,30 +145,6 @@ impl<'a> Reader<'a> {
                 if end == raw.0.len() { Shape::Word(raw.0) } else { Shape::Variant(&raw.0[..end]) }
             }
             _ => Shape::Other,
-        }
-    }
-
-    /// The expression in a piece: a string, or a bare number or boolean.
-    pub(crate) fn expr(&self, raw: Raw<'a>) -> Result<Expr, Diagnostic> {
-        let span = self.span(raw);
-        match self.shape(raw) {
-            Shape::Text => {
-                let text = raw.0;
-                let hashes = text.trim_start_matches('r').bytes().take_while(|b| *b == b'#').count();
-                let quote = usize::from(text.starts_with('r')) + hashes + 1;
-                if !text.starts_with('r')
-                    && let Some(escape) = text.find('\\')
-                {
-                    let at = span.start + escape;
-                    return Err(Diagnostic::error(codes::EXPRESSION, "an expression contains no escapes")
-                        .at(Span::new(at, at + 1), "unexpected `\\`"));
-                }
-                parse::expression(&text[quote..text.len() - 1 - hashes], span.start + quote)
-            }
-            Shape::Word("true" | "false") | Shape::Other => parse::expression(raw.0, span.start),
-            _ => Err(Diagnostic::error(codes::STRUCTURE, "expected an expression")
-                .at(span, "neither a string nor a number")
-                .help("write it as a string, for instance \"min(px, 1 - py)\"")),
         }
     }
 }
@@ -292,49 +229,5 @@ fn lower_first(text: &str) -> String {
     match chars.next() {
         Some(first) => first.to_lowercase().chain(chars).collect(),
         None => String::new(),
-    }
-}
-
-/// The known name closest to a misspelt one, if any is close. Wrong capitals are the smallest mistake.
-pub(crate) fn nearest<'n>(found: &str, known: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
-    if found.len() > 64 {
-        return None;
-    }
-    let limit = (found.chars().count() / 3).max(1);
-    let folded = found.to_lowercase();
-    known
-        .into_iter()
-        .map(|k| (distance(&folded, &k.to_lowercase()), distance(found, k), k))
-        .filter(|(d, ..)| *d <= limit)
-        .min()
-        .map(|(_, _, k)| k)
-}
-
-/// Levenshtein distance.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
-        }
-    }
-    row[b.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::nearest;
-
-    #[test]
-    fn a_name_in_the_wrong_capitals_is_the_nearest() {
-        assert_eq!(nearest("b", ["A", "B", "b1"]), Some("B"));
-        assert_eq!(nearest("LO_ENDS", ["Lo", "Lo_ends"]), Some("Lo_ends"));
-        assert_eq!(nearest("sine", ["sin", "cos"]), Some("sin"));
-        assert_eq!(nearest("tangent", ["sin", "cos"]), None);
     }
 }

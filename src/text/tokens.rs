@@ -25,6 +25,13 @@ pub(crate) enum Kind {
     BlockComment,
 }
 
+impl Kind {
+    /// Whether a token of this kind is a comment.
+    pub(crate) fn is_comment(self) -> bool {
+        matches!(self, Kind::LineComment | Kind::BlockComment)
+    }
+}
+
 /// A token and how it stood in the source.
 #[derive(Debug, Clone)]
 pub(crate) struct Token<'a> {
@@ -45,7 +52,7 @@ pub(crate) struct Token<'a> {
 impl Token<'_> {
     /// Whether it is a comment.
     pub(crate) fn is_comment(&self) -> bool {
-        matches!(self.kind, Kind::LineComment | Kind::BlockComment)
+        self.kind.is_comment()
     }
 }
 
@@ -85,7 +92,20 @@ pub(crate) fn tokens(text: &str) -> Vec<Token<'_>> {
     out
 }
 
-/// Where the last token of a text ends that is no comment.
+/// A text from its first token on that is no comment.
+pub(crate) fn skip_blank(text: &str) -> &str {
+    let mut rest = text.trim_start();
+    while let Some(first @ '/') = rest.chars().next() {
+        let (kind, length) = token(rest, first);
+        if !kind.is_comment() {
+            break;
+        }
+        rest = rest[length..].trim_start();
+    }
+    rest
+}
+
+/// The end of the last token of a text that is no comment.
 pub(crate) fn significant(text: &str) -> usize {
     let (mut at, mut end) = (0, 0);
     while let Some(first) = text[at..].chars().next() {
@@ -95,7 +115,7 @@ pub(crate) fn significant(text: &str) -> usize {
         }
         let (kind, length) = token(&text[at..], first);
         at += length;
-        if !matches!(kind, Kind::LineComment | Kind::BlockComment) {
+        if !kind.is_comment() {
             end = at;
         }
     }
@@ -110,9 +130,7 @@ fn token(rest: &str, first: char) -> (Kind, usize) {
         ',' => (Kind::Comma, 1),
         ':' => (Kind::Colon, 1),
         '/' if rest.starts_with("//") => (Kind::LineComment, rest.find('\n').unwrap_or(rest.len())),
-        '/' if rest.starts_with("/*") => {
-            (Kind::BlockComment, super::raw::block_comment_end(rest).unwrap_or(rest.len()))
-        }
+        '/' if rest.starts_with("/*") => (Kind::BlockComment, block_comment_end(rest).unwrap_or(rest.len())),
         '"' => (Kind::Text, text_end(rest)),
         '\'' => (Kind::Text, rest[1..].find('\'').map_or(rest.len(), |end| end + 2)),
         '#' if rest.starts_with("#![") => (Kind::Atom, rest.find(']').map_or(rest.len(), |end| end + 1)),
@@ -120,6 +138,26 @@ fn token(rest: &str, first: char) -> (Kind, usize) {
         _ => {
             let end = rest.find(|c: char| c.is_whitespace() || "()[]{},:\"/".contains(c));
             (Kind::Atom, end.unwrap_or(rest.len()).max(first.len_utf8()))
+        }
+    }
+}
+
+/// The length of the block comment that a text begins with; they nest.
+fn block_comment_end(text: &str) -> Option<usize> {
+    let mut depth = 0_usize;
+    let mut at = 0;
+    loop {
+        if text[at..].starts_with("/*") {
+            depth += 1;
+            at += 2;
+        } else if text[at..].starts_with("*/") {
+            depth -= 1;
+            at += 2;
+        } else {
+            at += text[at..].chars().next()?.len_utf8();
+        }
+        if depth == 0 {
+            return Some(at);
         }
     }
 }

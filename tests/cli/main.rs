@@ -5,6 +5,7 @@ mod atlas;
 mod bad_input;
 mod eval;
 mod explain;
+mod files;
 mod findings;
 mod functions;
 mod render;

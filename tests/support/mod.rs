@@ -61,8 +61,18 @@ impl Place {
 
     /// The same, with something on standard input.
     pub fn run_with(&self, arguments: &str, input: &str) -> Said {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_umbrage"))
-            .args(arguments.split_whitespace())
+        self.said(Command::new(env!("CARGO_BIN_EXE_umbrage")).args(arguments.split_whitespace()), input)
+    }
+
+    /// Runs `umbrage` in a shell with another umask.
+    #[cfg(unix)]
+    pub fn run_under(&self, umask: &str, arguments: &str) -> Said {
+        let command = format!("umask {umask} && exec {} {arguments}", env!("CARGO_BIN_EXE_umbrage"));
+        self.said(Command::new("sh").args(["-c", &command]), "")
+    }
+
+    fn said(&self, command: &mut Command, input: &str) -> Said {
+        let mut child = command
             .current_dir(self.directory.path())
             .env_remove("RUST_BACKTRACE")
             // Without it Mesa complains on standard error, where only the command should speak.

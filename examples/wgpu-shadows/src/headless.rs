@@ -4,6 +4,7 @@ use std::path::Path;
 
 use image::RgbaImage;
 use umbrage::scene::Scene;
+use umbrage::text::file;
 
 use crate::gpu::Gpu;
 use crate::panel;
@@ -50,10 +51,11 @@ pub(crate) fn write(
     renderer.collector.take(&renderer.gpu, wgpu::PollType::wait_indefinitely());
     renderer.render(view, &output)?;
     let feedback = renderer.collector.take(&renderer.gpu, wgpu::PollType::wait_indefinitely());
-    // The format is PNG, whatever the file is called.
-    if let Err(error) = picture.save_with_format(path, image::ImageFormat::Png) {
-        return Err(format!("error: {} cannot be written: {error}", path.display()));
-    }
+    // The format is PNG, whatever the file is called. All of the picture is in the file, or nothing.
+    let mut png = std::io::Cursor::new(Vec::new());
+    let written = picture.write_to(&mut png, image::ImageFormat::Png);
+    written.map_err(|error| format!("error: {} cannot be written: {error}", file::shown(path)))?;
+    file::write(path, png.get_ref()).map_err(|failure| failure.to_string())?;
     println!("{}: {}", path.display(), panel::title(view, &renderer, feedback.as_ref()));
     if view.cases
         && let Some(feedback) = feedback

@@ -126,7 +126,7 @@ fn what_cannot_be_done_is_said() {
         ("--shadow-map 9000", "9000 is not in 16..=8190"),
         ("--scene nowhere --headless a.png", "there is no scene `nowhere`"),
         ("--table stranger.ron --headless a.png", "is the table `stranger`; here are rsmss and smsr"),
-        ("--headless nowhere/a.png", "nowhere/a.png cannot be written"),
+        ("--headless nowhere/a.png", "nowhere/a.png: cannot be written"),
         // There is no display.
         ("", "write a picture: --headless out.png"),
     ] {

@@ -13,7 +13,8 @@ use crate::capture::{self, Capture};
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::eval;
 use crate::program::{Domain, Input, InputId, Program, Value};
-use crate::table::{nearest, not_utf8, read_text};
+use crate::text::closest::nearest;
+use crate::text::file::{io_reason, not_utf8, read_text, shown};
 
 /// Rows that are read and evaluated together.
 pub(super) const CHUNK: usize = 1 << 16;
@@ -202,7 +203,7 @@ pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
 pub(super) fn read(program: &Program, path: &Path) -> Result<Rows, Failure> {
     let text = |source| Ok(Rows { source, capture: None });
     if path.as_os_str() != "-" {
-        let name = path.to_string_lossy().replace('\\', "/");
+        let name = shown(path);
         if has_extension(path, "bin") {
             let capture = Some(capture::read(program, path)?);
             return Ok(Rows { source: Source::new(name, ""), capture });
@@ -212,9 +213,8 @@ pub(super) fn read(program: &Program, path: &Path) -> Result<Rows, Failure> {
     let fail =
         |message: String, help: &str| Failure::bare(STDIN, Diagnostic::error(codes::UNREADABLE, message).help(help));
     let mut bytes = Vec::new();
-    std::io::Read::read_to_end(&mut std::io::stdin().lock(), &mut bytes).map_err(|e| {
-        fail(format!("cannot be read: {}", crate::table::io_reason(&e)), "pipe the rows into the command")
-    })?;
+    std::io::Read::read_to_end(&mut std::io::stdin().lock(), &mut bytes)
+        .map_err(|e| fail(format!("cannot be read: {}", io_reason(&e)), "pipe the rows into the command"))?;
     if capture::is_capture(&bytes) {
         let capture = capture::parse(program, &bytes).map_err(|error| Failure::bare(STDIN, error))?;
         return Ok(Rows { source: Source::new(STDIN, ""), capture: Some(capture) });

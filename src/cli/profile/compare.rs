@@ -9,6 +9,7 @@ use crate::cli::messages::{Format, Report};
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, changes, total_variation};
+use crate::text::file::shown;
 
 /// Arguments of `umbrage profile diff`.
 #[derive(clap::Args)]
@@ -24,7 +25,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     if before.table != after.table {
         let message = format!("is a profile of the table `{}`, not of `{}`", after.table, before.table);
         let error = Diagnostic::error(codes::OTHER_PROFILE, message).help("compare profiles of one table");
-        return Err(Failure::bare(super::shown(&arguments.after), error).into());
+        return Err(Failure::bare(shown(&arguments.after), error).into());
     }
     let found = changes(&before, &after);
     let variation = total_variation(&before, &after);

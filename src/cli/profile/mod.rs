@@ -15,6 +15,7 @@ use super::{Outcome, Result, input};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, Fitted, Profile, Scene};
 use crate::program::Program;
+use crate::text::file::shown;
 
 /// Arguments of `umbrage profile`.
 #[derive(clap::Args)]
@@ -169,11 +170,6 @@ fn write(profile: &Profile, output: &Path) -> Result<()> {
     let mut sink = Sink::create(output)?;
     sink.write_all(profile::to_ron(profile).as_bytes()).map_err(|error| sink.failure(&error))?;
     sink.finish()
-}
-
-/// A path as it is shown in messages.
-fn shown(path: &Path) -> String {
-    path.to_string_lossy().replace('\\', "/")
 }
 
 /// Reads several profiles as one. Those without a weight weigh 1.

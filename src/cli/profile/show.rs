@@ -11,6 +11,7 @@ use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{Frequency, Profile, fit, frequencies};
 use crate::program::Program;
+use crate::text::file::shown;
 
 /// Arguments of `umbrage profile show`.
 #[derive(clap::Args)]
@@ -35,7 +36,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut outcome = Outcome::Clean;
     if let Some(table) = &arguments.table {
         let table = Program::read(table)?;
-        let name = super::shown(&arguments.profiles[0]);
+        let name = shown(&arguments.profiles[0]);
         let fitted = fit(&table, profile, &name)?;
         if let Some(warning) = &fitted.warning {
             report.failure(&Failure::bare("", warning.clone()));
@@ -49,7 +50,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     if profile.total() == 0 {
         let error = Diagnostic::error(codes::EMPTY_PROFILE, "counts nothing, so there are no frequencies");
-        let name = super::shown(&arguments.profiles[0]);
+        let name = shown(&arguments.profiles[0]);
         return Err(Failure::bare(name, error.help("count scenes in which the table is evaluated")).into());
     }
     match (&arguments.output, report.format) {
@@ -125,7 +126,7 @@ fn picture(profile: &Profile, path: &std::path::Path) -> Result<()> {
         crate::picture::png(&crate::picture::raster(&svg, 2.0)?)?
     } else {
         let error = Diagnostic::error(codes::UNWRITABLE, "is no kind of picture that can be written");
-        return Err(Failure::bare(super::shown(path), error.help("name a file *.svg or *.png")).into());
+        return Err(Failure::bare(shown(path), error.help("name a file *.svg or *.png")).into());
     };
     let mut sink = Sink::create(path)?;
     sink.write_all(&bytes).map_err(|error| sink.failure(&error))?;
@@ -135,5 +136,5 @@ fn picture(profile: &Profile, path: &std::path::Path) -> Result<()> {
 #[cfg(not(feature = "report"))]
 fn picture(_: &Profile, path: &std::path::Path) -> Result<()> {
     let error = Diagnostic::error(codes::UNWRITABLE, "cannot be drawn: this build has no pictures");
-    Err(Failure::bare(super::shown(path), error.help("build umbrage with the feature `report`")).into())
+    Err(Failure::bare(shown(path), error.help("build umbrage with the feature `report`")).into())
 }

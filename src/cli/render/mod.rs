@@ -33,6 +33,7 @@ use crate::technique::revectorise::reference::Samples;
 use crate::technique::revectorise::stage::Stage;
 use crate::technique::revectorise::{Receivers, ShadowMap, Technique, Visibility, cpu};
 use crate::technique::shade;
+use crate::text::file::shown;
 
 /// Arguments of `umbrage render`.
 #[derive(clap::Args)]
@@ -144,8 +145,8 @@ fn check(arguments: &Arguments) -> std::result::Result<(), Failure> {
     if let Some(path) = &arguments.output
         && format_of(path).is_none()
     {
-        let shown = path.to_string_lossy();
-        return error(format!("`{shown}` is no kind of picture that can be written"), "name it *.png or *.exr");
+        let message = format!("`{}` is no kind of picture that can be written", shown(path));
+        return error(message, "name it *.png or *.exr");
     }
     let has_table = arguments.technique.table().is_some();
     for (asked, option) in [(arguments.cases, "--cases"), (arguments.capture.is_some(), "--capture")] {

@@ -21,6 +21,7 @@ use crate::technique::revectorise::Technique;
 use crate::technique::revectorise::reference;
 use crate::technique::revectorise::reference::Samples;
 use crate::technique::revectorise::stage::Stage;
+use crate::text::file::shown;
 
 /// Arguments of `umbrage quality`.
 #[derive(clap::Args)]
@@ -62,7 +63,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         && !has_extension(path, "svg")
         && !has_extension(path, "png")
     {
-        let message = format!("`{}` is no kind of plot that can be written", path.to_string_lossy());
+        let message = format!("`{}` is no kind of plot that can be written", shown(path));
         let error = Diagnostic::error(codes::RENDER, message).help("name it *.svg or *.png");
         return Err(Failure::bare("", error).into());
     }

@@ -8,6 +8,7 @@ use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::operators::{BinaryOp, Operator, TernaryOp, UnaryOp};
 use crate::program::pool::{ExprId, Node};
 use crate::table::expr::Expr;
+use crate::text::closest::nearest;
 
 /// Functions that are not operations on numbers.
 pub(super) const BUILT_IN: [&str; 12] =
@@ -349,7 +350,7 @@ impl Lowering<'_> {
         };
         let error = Diagnostic::error(codes::CALL, format!("there is no function `{}`", function.value))
             .at(function.span, "unknown function");
-        match crate::table::nearest(&function.value, known()) {
+        match nearest(&function.value, known()) {
             Some(close) => error.help(format!("did you mean `{close}`?")),
             None => error.help(format!("the functions are: {}", known().collect::<Vec<_>>().join(", "))),
         }

@@ -9,6 +9,7 @@ use crate::program::domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, State
 use crate::program::pool::InputSet;
 use crate::program::{InputId, Output};
 use crate::table::{self, names};
+use crate::text::closest::nearest;
 
 impl<'t> Lowering<'t> {
     pub(super) fn declare(&mut self, inputs: &[&'t table::Input], errors: &mut Vec<Diagnostic>) {
@@ -212,7 +213,7 @@ impl<'t> Lowering<'t> {
         let known = self.set_index.keys().chain(self.input_index.keys()).copied();
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no level set `{}`", name.value))
             .at(name.span, "neither under `levels` nor a discrete input declared above");
-        Err(match table::nearest(&name.value, known) {
+        Err(match nearest(&name.value, known) {
             Some(close) => error.help(format!("did you mean `{close}`?")),
             None => error,
         })

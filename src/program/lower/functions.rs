@@ -16,6 +16,7 @@ use crate::program::operators::BinaryOp;
 use crate::program::pool::ExprId;
 use crate::table::expr::{Expr, ExprKind, SumOver};
 use crate::table::{self, CaseBody, ConstantValue, Function, FunctionBody, Helper, names};
+use crate::text::closest::nearest;
 
 /// Most terms of a sum, and most coefficients of a polynomial.
 const MAX_TERMS: usize = 256;
@@ -119,7 +120,7 @@ impl<'t> Lowering<'t> {
                 let error =
                     Diagnostic::error(codes::PARAMETER, format!("`{function}` has no parameter `{}`", name.value))
                         .at(name.span, "unknown parameter");
-                return Err(match table::nearest(&name.value, parameters.iter().map(|p| p.value.as_str())) {
+                return Err(match nearest(&name.value, parameters.iter().map(|p| p.value.as_str())) {
                     Some(close) => error.help(format!("did you mean `{close}`?")),
                     None => error.help(format!(
                         "the parameters are: {}",
@@ -451,7 +452,7 @@ impl<'t> Lowering<'t> {
         let Some((index, ConstantValue::List(items))) = found.map(|index| (index, &constants[index].value)) else {
             let message = format!("`{}` is not a list of constants", list.value);
             let error = Diagnostic::error(codes::UNKNOWN_NAME, message).at(list.span, "expected a list of `constants`");
-            return Err(match table::nearest(&list.value, lists()) {
+            return Err(match nearest(&list.value, lists()) {
                 Some(close) => error.help(format!("did you mean `{close}`?")),
                 None if lists().next().is_none() => {
                     error.help("declare one: constants: {\"nodes\": [(0.25, 1), (0.75, 1)]}")

@@ -11,6 +11,7 @@ use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::InputId;
 use crate::program::pool::{Comparison, CondId, ExprId, LevelSet};
 use crate::table::expr::{self as ast, Expr, ExprKind};
+use crate::text::closest::nearest;
 
 /// A level that depends on inputs.
 #[derive(Debug, Clone, PartialEq)]
@@ -161,7 +162,7 @@ impl Lowering<'_> {
         let levels = &self.sets[set.0];
         let error = Diagnostic::error(codes::UNKNOWN_LEVEL, format!("there is no level `{word}`"))
             .at(span, "not one of the levels here");
-        let error = match crate::table::nearest(word, levels.names.iter().map(String::as_str)) {
+        let error = match nearest(word, levels.names.iter().map(String::as_str)) {
             Some(close) => error.help(format!("did you mean `{close}`?")),
             None => error,
         };

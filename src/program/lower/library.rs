@@ -13,6 +13,7 @@ use crate::program::domain::StateSpace;
 use crate::program::operators::Operator;
 use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row};
 use crate::table::{self, FunctionBody, HitPolicy, Table, names};
+use crate::text::closest::nearest;
 
 /// Checks a table of functions.
 pub(in crate::program) fn functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
@@ -72,7 +73,7 @@ pub(in crate::program) fn no_function(table: &Table, name: Option<&str>) -> Fail
         (Some(name), false) => {
             let error =
                 Diagnostic::error(codes::NO_FUNCTION, format!("`{}` has no function `{name}`", table.name.value));
-            match table::nearest(name, known.iter().copied()) {
+            match nearest(name, known.iter().copied()) {
                 Some(close) => error.help(format!("did you mean `{close}`?")),
                 None => error,
             }
@@ -110,7 +111,7 @@ fn one(table: &Table, function: &table::Function, errors: &mut Vec<Diagnostic>) 
                 let error =
                     Diagnostic::error(codes::PARAMETER, format!("the parameter `{}` is not declared", name.value))
                         .at(name.span, "not under `inputs`");
-                errors.push(match table::nearest(&name.value, known()) {
+                errors.push(match nearest(&name.value, known()) {
                     Some(close) => error.help(format!("did you mean `{close}`?")),
                     None => error.help("declare it: inputs: {\"x\": Range(from: 0, to: 1)}"),
                 });

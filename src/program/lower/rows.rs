@@ -17,6 +17,7 @@ use crate::program::pool::{CondId, ExprId};
 use crate::program::{InputId, LevelTerm, Line, Output, Row};
 use crate::table::expr::Expr;
 use crate::table::{self, Case, CaseBody};
+use crate::text::closest::nearest;
 
 /// A line of a row, its value not yet tied to the output.
 pub(super) struct LoweredLine {
@@ -83,7 +84,7 @@ impl<'t> Lowering<'t> {
                     let error =
                         Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no symmetry `{}`", under.value))
                             .at(under.span, "not under `symmetries`");
-                    return Err(match table::nearest(&under.value, known) {
+                    return Err(match nearest(&under.value, known) {
                         Some(close) => error.help(format!("did you mean `{close}`?")),
                         None => error,
                     });

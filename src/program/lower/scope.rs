@@ -13,6 +13,7 @@ use crate::program::pool::LevelSet;
 use crate::program::{InputId, LevelTerm};
 use crate::table::expr::{Expr, ExprKind};
 use crate::table::{self, names};
+use crate::text::closest::nearest;
 
 /// What names mean at some point.
 #[derive(Clone, Default)]
@@ -242,7 +243,7 @@ impl Lowering<'_> {
         if self.sets.iter().any(|set| set.names.iter().any(|n| n == name)) {
             return error.help(format!("`{name}` is a level: compare an input with it, as in `input == {name}`"));
         }
-        match table::nearest(name, inputs().into_iter().chain(names).chain(locals)) {
+        match nearest(name, inputs().into_iter().chain(names).chain(locals)) {
             Some(close) => error.help(format!("did you mean `{close}`?")),
             None if env.parameters.is_some() => error.help(format!("the parameters are: {}", inputs().join(", "))),
             None => error.help(format!("the inputs are: {}", inputs().join(", "))),
@@ -252,7 +253,7 @@ impl Lowering<'_> {
     pub(super) fn unknown_input(&self, name: &Spanned<String>, label: &str) -> Diagnostic {
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", name.value));
         let known = || self.inputs.iter().map(|i| i.name.as_str());
-        error.at(name.span, label).help(match table::nearest(&name.value, known()) {
+        error.at(name.span, label).help(match nearest(&name.value, known()) {
             Some(close) => format!("did you mean `{close}`?"),
             None => format!("the inputs are: {}", known().collect::<Vec<_>>().join(", ")),
         })
