@@ -1,6 +1,7 @@
 //! The library without a command line and without a device.
 #![allow(clippy::unwrap_used)]
 
+mod architecture;
 mod batch;
 mod emitted_rust;
 mod generated;
