@@ -12,6 +12,7 @@ pub mod kernel;
 mod language;
 mod module;
 mod names;
+pub mod reflect;
 mod text;
 mod validate;
 
@@ -25,7 +26,7 @@ use crate::program::Output;
 pub use host::Beside;
 pub use language::glsl::GlslVersion;
 pub use module::lookup_words;
-pub use validate::{Translated, Validated, glsl_module, translate, wgsl_module};
+pub use validate::{Translated, Validated, glsl_module, translate, wgsl_module, wgsl_text};
 
 /// A language to emit, and in what form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

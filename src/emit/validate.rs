@@ -1,5 +1,5 @@
-//! Everything that has to do with naga: parsing and validating what was
-//! emitted, and translating it further. No other module names naga.
+//! naga at work: parses and validates the emitted text, and translates it
+//! further. Only this module and `reflect` name naga.
 
 use naga::ShaderStage;
 use naga::back::{hlsl, msl, spv};
@@ -37,11 +37,25 @@ pub enum Translated {
 /// # Errors
 /// With naga's message and the generated line it is about.
 pub fn wgsl_module(program: &Program, source: &str) -> Result<Validated, Failure> {
+    with_stack(|| read_wgsl(source).map_err(|message| invalid(program, "WGSL", &message)))
+}
+
+/// Parses and validates WGSL that comes from no table: the skeleton of a pass, called `name` in messages.
+///
+/// # Errors
+/// With naga's message and the line it is about.
+pub fn wgsl_text(name: &str, source: &str) -> Result<Validated, Failure> {
     with_stack(|| {
-        let module = naga::front::wgsl::parse_str(source)
-            .map_err(|error| invalid(program, "WGSL", &error.emit_to_string(source)))?;
-        validated(program, "WGSL", source, module)
+        read_wgsl(source).map_err(|message| {
+            let error = Diagnostic::error(codes::INVALID_OUTPUT, format!("naga refuses the WGSL of the pass `{name}`"));
+            Failure::bare("", error.help(message.trim_end().to_owned()).help("please report this"))
+        })
     })
+}
+
+fn read_wgsl(source: &str) -> Result<Validated, String> {
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
+    validated(source, module)
 }
 
 /// Parses and validates GLSL 450, as a compute shader.
@@ -54,14 +68,14 @@ pub fn glsl_module(program: &Program, source: &str) -> Result<Validated, Failure
         let module = naga::front::glsl::Frontend::default()
             .parse(&options, source)
             .map_err(|error| invalid(program, "GLSL", &error.emit_to_string(source)))?;
-        validated(program, "GLSL", source, module)
+        validated(source, module).map_err(|message| invalid(program, "GLSL", &message))
     })
 }
 
-fn validated(program: &Program, language: &str, source: &str, module: naga::Module) -> Result<Validated, Failure> {
+fn validated(source: &str, module: naga::Module) -> Result<Validated, String> {
     let info = Validator::new(ValidationFlags::all(), Capabilities::empty())
         .validate(&module)
-        .map_err(|error| invalid(program, language, &error.emit_to_string(source)))?;
+        .map_err(|error| error.emit_to_string(source))?;
     Ok(Validated { module, info })
 }
 

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use super::Gpu;
-use super::kernel::{bindings, buffers, fetched_words, plain_words};
-use super::pass::Compute;
+use super::kernel::{Names, fetched_words, plain_words};
+use super::pass::{Compute, Module};
 use super::timing::Stopwatch;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::kernel::columns::{Entry, Layout, WORKGROUP, reads_lookup};
@@ -61,9 +61,10 @@ impl Workload {
 /// A pass over a [`Workload`].
 #[derive(Debug)]
 pub struct Timed {
+    module: Module,
     compute: Compute,
+    names: Names,
     lookup: Option<wgpu::Buffer>,
-    fetches: bool,
     rows_of_thread: u32,
 }
 
@@ -92,12 +93,11 @@ impl Timed {
         lookup: Option<Vec<u32>>,
         rows_of_thread: u32,
     ) -> Result<Self, Failure> {
-        let fetches = !program.fetched.is_empty();
-        let module = wgsl_module(program, source)?;
-        let compute = Compute::new(gpu, &program.name, module, bindings(fetches, lookup.is_some()))?;
+        let module = Module::new(gpu, &program.name, wgsl_module(program, source)?)?;
+        let compute = module.compute(gpu, module.only_compute()?, &[])?;
         let lookup = lookup.map(|words| gpu.storage("lookup", &words));
         gpu.check()?;
-        Ok(Self { compute, lookup, fetches, rows_of_thread })
+        Ok(Self { module, compute, names: Names::new(program), lookup, rows_of_thread })
     }
 
     /// Goes over a workload `repeats` times in one pass and returns the time of one of them.
@@ -105,13 +105,10 @@ impl Timed {
     /// # Errors
     /// When the device fails.
     pub fn time(&self, gpu: &Gpu, watch: &Stopwatch<'_>, load: &Workload, repeats: u32) -> Result<Duration, Failure> {
-        let fetched = load.fetched.as_ref().filter(|_| self.fetches);
-        let group = self.compute.bind(gpu, buffers(&load.plain, fetched, &load.out, self.lookup.as_ref()));
-        let groups = (load.rows / self.rows_of_thread).div_ceil(WORKGROUP);
-        let time = watch.time(|encoder, marks| {
-            let descriptor = wgpu::ComputePassDescriptor { label: None, timestamp_writes: marks.compute() };
-            self.compute.record(&mut encoder.begin_compute_pass(&descriptor), &group, groups, repeats);
-        })?;
+        let (fetched, lookup) = (load.fetched.as_ref(), self.lookup.as_ref());
+        let bound = self.names.bind(gpu, &self.module, &load.plain, fetched, &load.out, lookup)?;
+        let work = self.compute.covering([load.rows / self.rows_of_thread, 1, 1]);
+        let time = watch.time(|encoder, marks| self.compute.encode(encoder, &bound, work, repeats, marks.compute()))?;
         gpu.check()?;
         Ok(time / repeats.max(1))
     }

@@ -2,11 +2,11 @@
 
 use std::fmt;
 use std::str::FromStr;
-use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::diag::{Diagnostic, Failure, codes};
 
-/// Which adapter to use.
+/// The adapter to use.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum AdapterChoice {
     /// The best there is: a discrete GPU, else an integrated one, else software.
@@ -94,6 +94,7 @@ impl Gpu {
                 max_storage_buffer_binding_size: limits.max_storage_buffer_binding_size,
                 max_buffer_size: limits.max_buffer_size,
                 max_texture_dimension_2d: limits.max_texture_dimension_2d,
+                max_storage_buffers_per_shader_stage: limits.max_storage_buffers_per_shader_stage,
                 ..wgpu::Limits::downlevel_defaults()
             },
             ..wgpu::DeviceDescriptor::default()
@@ -129,76 +130,15 @@ impl Gpu {
         describe(&self.info)
     }
 
-    /// Whether the adapter is a software rasteriser.
+    /// Returns whether the adapter is a software rasteriser.
     pub fn is_software(&self) -> bool {
         self.info.device_type == wgpu::DeviceType::Cpu
     }
 
-    /// Waits for the device, then shows what a mappable buffer holds.
-    ///
-    /// # Errors
-    /// When the device was lost, ran out of memory, or found fault with what was submitted.
-    pub(crate) fn read_back<R>(&self, buffer: &wgpu::Buffer, read: impl FnOnce(&[u8]) -> R) -> Result<R, Failure> {
-        let (sender, receiver) = mpsc::channel();
-        buffer.slice(..).map_async(wgpu::MapMode::Read, move |result| {
-            // The receiver only goes away after an error that was reported already.
-            let _ = sender.send(result);
-        });
-        let failed = |what: &dyn fmt::Display| {
-            let message = format!("results could not be read back: {what}");
-            let help = "try fewer rows or pixels, or another adapter (`--adapter`)";
-            Failure::bare("", Diagnostic::error(codes::DEVICE, message).help(help))
-        };
-        self.wait()?;
-        receiver.recv().map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
-        let result = {
-            let view = buffer.slice(..).get_mapped_range().map_err(|error| failed(&error))?;
-            read(&view)
-        };
-        buffer.unmap();
-        Ok(result)
-    }
-
-    /// Copies a buffer back and shows what is in it.
-    ///
-    /// # Errors
-    /// When the device fails.
-    pub(crate) fn read_buffer<R>(
-        &self,
-        source: &wgpu::Buffer,
-        size: u64,
-        read: impl FnOnce(&[u8]) -> R,
-    ) -> Result<R, Failure> {
-        let back = self.mappable(size);
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(source, 0, &back, 0, size);
-        self.queue.submit([encoder.finish()]);
-        self.read_back(&back, read)
-    }
-
-    /// Copies a texture back: its rows, and the bytes from one to the next.
-    ///
-    /// # Errors
-    /// When the device fails.
+    /// The bytes of the largest buffer.
     #[cfg(feature = "render")]
-    pub(crate) fn read_texture(&self, source: &wgpu::Texture, texel: u32) -> Result<(Vec<u8>, usize), Failure> {
-        let pitch = (source.width() * texel).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let back = self.mappable(u64::from(pitch) * u64::from(source.height()));
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(pitch), rows_per_image: None };
-        let target = wgpu::TexelCopyBufferInfo { buffer: &back, layout };
-        encoder.copy_texture_to_buffer(source.as_image_copy(), target, source.size());
-        self.queue.submit([encoder.finish()]);
-        Ok((self.read_back(&back, <[u8]>::to_vec)?, pitch as usize))
-    }
-
-    fn mappable(&self, size: u64) -> wgpu::Buffer {
-        self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("back"),
-            size,
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        })
+    pub(crate) fn largest_buffer(&self) -> u64 {
+        self.device.limits().max_buffer_size
     }
 
     /// Waits until everything submitted is done.

@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use super::Gpu;
-use super::pass::{Binding, Compute};
+use super::pass::{Bound, Compute, Module, Resources};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::kernel::columns::{
-    COUNTS_PER_WORD, Entry, Layout, WORKGROUP, glsl_columns, reads_lookup, wgsl_columns,
+    COUNTS_PER_WORD, Entry, Layout, buffer_name, glsl_columns, reads_lookup, wgsl_columns,
 };
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
 use crate::eval::Columns;
@@ -46,7 +46,9 @@ pub struct Kernel<'a, 'p> {
     key: KeyLayout,
     entry: Entry,
     layout: Layout,
+    module: Module,
     compute: Compute,
+    names: Names,
     lookup: Option<wgpu::Buffer>,
 }
 
@@ -92,11 +94,12 @@ impl<'a, 'p> Kernel<'a, 'p> {
             Language::Glsl => glsl_module(program, &glsl_columns(proved, entry))?,
         };
         let layout = Layout::new(program, entry);
-        let has_lookup = reads_lookup(proved);
-        let compute = Compute::new(gpu, &program.name, module, bindings(layout.fetched > 0, has_lookup))?;
-        let lookup = has_lookup.then(|| gpu.storage("lookup", &lookup_words(proved.plan())));
+        let module = Module::new(gpu, &program.name, module)?;
+        let compute = module.compute(gpu, module.only_compute()?, &[])?;
+        let lookup = reads_lookup(proved).then(|| gpu.storage("lookup", &lookup_words(proved.plan())));
         gpu.check()?;
-        Ok(Self { gpu, program, key: proved.plan().key.clone(), entry, layout, compute, lookup })
+        let (key, names) = (proved.plan().key.clone(), Names::new(program));
+        Ok(Self { gpu, program, key, entry, layout, module, compute, names, lookup })
     }
 
     /// Evaluates columns, in as many dispatches as the device's limits ask for.
@@ -139,9 +142,10 @@ impl<'a, 'p> Kernel<'a, 'p> {
         // A new buffer is zeroed, so the counts of fetches start at zero.
         let out = gpu.results("out", size);
         gpu.check()?;
-        let group = self.compute.bind(gpu, buffers(&plain, fetched.as_ref(), &out, self.lookup.as_ref()));
-        let groups = (count as u32).div_ceil(WORKGROUP);
-        self.compute.run(gpu, &group, groups, (&out, size), |bytes| self.read(bytemuck::cast_slice(bytes), outputs))
+        let bound = self.names.bind(gpu, &self.module, &plain, fetched.as_ref(), &out, self.lookup.as_ref())?;
+        let work = self.compute.covering([count as u32, 1, 1]);
+        gpu.submit(|encoder| self.compute.encode(encoder, &bound, work, 1, None));
+        gpu.read_buffer(&out, size, |bytes| self.read(bytemuck::cast_slice(bytes), outputs))
     }
 
     fn read(&self, words: &[u32], outputs: &mut Outputs) {
@@ -208,28 +212,50 @@ pub(super) fn fetched_words(program: &Program, columns: &Columns<f32>, rows: Ran
         program.fetched.iter().map(|input| (input, program.levels(input).is_some())).collect();
     let mut words = Vec::with_capacity(rows.len() * inputs.len());
     for row in rows {
-        words.extend(inputs.iter().map(|(input, discrete)| match discrete {
-            true => u32::from(columns.levels(*input)[row]),
-            false if columns.is_present(row, *input) => columns.numbers(*input)[row].to_bits(),
-            false => f32::NAN.to_bits(),
+        words.extend(inputs.iter().map(|(input, discrete)| {
+            if *discrete {
+                u32::from(columns.levels(*input)[row])
+            } else if columns.is_present(row, *input) {
+                columns.numbers(*input)[row].to_bits()
+            } else {
+                f32::NAN.to_bits()
+            }
         }));
     }
     words
 }
 
-/// The bindings of a shader over columns: plain inputs, fetched ones, results, lookup.
-pub(super) fn bindings(fetches: bool, has_lookup: bool) -> impl Iterator<Item = Binding> {
-    let some = [Some((0, true)), fetches.then_some((1, true)), Some((2, false)), has_lookup.then_some((3, true))];
-    some.into_iter().flatten()
+/// The names of the buffers in a shader over columns.
+#[derive(Debug)]
+pub(super) struct Names {
+    plain: String,
+    fetched: String,
+    out: String,
+    lookup: String,
 }
 
-/// The buffers for [`bindings`].
-pub(super) fn buffers<'b>(
-    plain: &'b wgpu::Buffer,
-    fetched: Option<&'b wgpu::Buffer>,
-    out: &'b wgpu::Buffer,
-    lookup: Option<&'b wgpu::Buffer>,
-) -> impl Iterator<Item = (u32, &'b wgpu::Buffer)> {
-    let some = [Some((0, plain)), fetched.map(|buffer| (1, buffer)), Some((2, out)), lookup.map(|buffer| (3, buffer))];
-    some.into_iter().flatten()
+impl Names {
+    pub(super) fn new(program: &Program) -> Self {
+        let [plain, fetched, out, lookup] =
+            ["plain", "fetched", "out", "lookup"].map(|buffer| buffer_name(program, buffer));
+        Self { plain, fetched, out, lookup }
+    }
+
+    /// Binds plain inputs, fetched ones, results and lookup.
+    pub(super) fn bind(
+        &self,
+        gpu: &Gpu,
+        module: &Module,
+        plain: &wgpu::Buffer,
+        fetched: Option<&wgpu::Buffer>,
+        out: &wgpu::Buffer,
+        lookup: Option<&wgpu::Buffer>,
+    ) -> Result<Bound, Failure> {
+        let resources = Resources::new()
+            .buffer(&self.plain, plain)
+            .optional_buffer(&self.fetched, fetched)
+            .buffer(&self.out, out)
+            .optional_buffer(&self.lookup, lookup);
+        module.bind(gpu, &resources)
+    }
 }

@@ -84,7 +84,7 @@ fn worked_examples_on_the_gpu() {
 #[test]
 fn light_on_the_gpu_is_that_of_the_interpreter() {
     use umbrage::gpu::{AdapterChoice, Gpu};
-    use umbrage::technique::integrals::gpu::Lamp;
+    use umbrage::technique::integrals::gpu::LightPipeline;
     use umbrage::technique::integrals::{Scene, Settings, Tables, picture};
     let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
         assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
@@ -94,7 +94,7 @@ fn light_on_the_gpu_is_that_of_the_interpreter() {
     let tables = Tables::new().unwrap();
     let surfaces = picture::surfaces(&scene, 24, 14);
     let expected = picture::shade(&scene, &tables, &settings, &surfaces).unwrap();
-    let got = Lamp::new(&gpu, &tables, &scene).unwrap().shade(&scene, &settings, &surfaces).unwrap();
+    let got = LightPipeline::new(&gpu, &tables, &scene).unwrap().shade(&scene, &settings, &surfaces).unwrap();
     let (mut error, mut whole) = (0.0, 0.0);
     for (got, expected) in got.light.iter().zip(&expected.light) {
         assert_eq!(got.is_some(), expected.is_some());

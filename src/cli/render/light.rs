@@ -17,7 +17,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::picture::plot;
 #[cfg(feature = "gpu")]
-use crate::technique::integrals::gpu::Lamp;
+use crate::technique::integrals::gpu::LightPipeline;
 use crate::technique::integrals::picture;
 use crate::technique::integrals::{Scene, Settings, Shaded, Surface, Tables};
 
@@ -94,7 +94,7 @@ fn threshold(text: &str) -> std::result::Result<f64, String> {
 enum Executor<'t> {
     Interpreter(&'t Tables),
     #[cfg(feature = "gpu")]
-    Lamp(Lamp<'t>),
+    Gpu(LightPipeline<'t>),
 }
 
 impl Executor<'_> {
@@ -102,7 +102,7 @@ impl Executor<'_> {
         match self {
             Executor::Interpreter(tables) => Ok(picture::shade(scene, tables, settings, surfaces)?),
             #[cfg(feature = "gpu")]
-            Executor::Lamp(lamp) => Ok(lamp.shade(scene, settings, surfaces)?),
+            Executor::Gpu(pipeline) => Ok(pipeline.shade(scene, settings, surfaces)?),
         }
     }
 }
@@ -126,9 +126,9 @@ pub(in crate::cli) fn run(arguments: &Arguments, _report: &Report) -> Result<Out
     let (executor, place) = match &gpu {
         Some(gpu) => {
             let start = Instant::now();
-            let lamp = Lamp::new(gpu, &tables, &scene)?;
+            let pipeline = LightPipeline::new(gpu, &tables, &scene)?;
             say += &format!("shader compiled in {:.2} s\n", start.elapsed().as_secs_f64());
-            (Executor::Lamp(lamp), gpu.describe())
+            (Executor::Gpu(pipeline), gpu.describe())
         }
         None => (Executor::Interpreter(&tables), INTERPRETER.to_owned()),
     };

@@ -262,6 +262,11 @@ pub(in crate::emit) fn name_buffers(program: &Program, prefix: &Prefix, text: &s
     }
 }
 
+/// The name of a buffer in the shaders over columns: `plain`, `fetched`, `out` or `lookup`.
+pub fn buffer_name(program: &Program, buffer: &str) -> String {
+    name_buffers(program, &Prefix::new(&program.name), &format!("${buffer}"))
+}
+
 fn count_fetch(layout: &Layout, index: usize) -> String {
     let word = 1 + layout.values + index / COUNTS_PER_WORD;
     let place = format!("$out[site.row * {}u + {word}u]", layout.out);

@@ -1,37 +1,36 @@
-//! The same on a device: a shader divides the directions at a surface, evaluates
+//! The technique on a GPU: a shader divides the directions at a surface, evaluates
 //! the tables and adds up, so that nothing but surfaces goes there and nothing
 //! but light comes back.
 
 use std::fmt::Write;
 use std::iter::once;
 
-use glam::DVec3;
+use encase::ShaderType;
+use glam::{UVec4, Vec3};
 
 use super::tables::Tables;
 use super::{Body, Scene, Settings, Shaded, Surface};
 use crate::diag::Failure;
 use crate::emit::{self, wgsl_module};
-use crate::gpu::Gpu;
-use crate::gpu::pass::Compute;
+use crate::gpu::pass::{Compute, Module, Resources};
+use crate::gpu::{Gpu, laid_out};
 use crate::plan::{Plan, Shape};
 
 const SKELETON: &str = include_str!("wgsl/light.wgsl");
 
-/// Surfaces of a workgroup, as the skeleton says.
-const ROW: u32 = 8;
-
 /// Surfaces of one run: many, but little work compared to what a driver takes for a hang.
 const PORTION: usize = 1 << 16;
 
-/// A scene on a device.
+/// The shader of scenes of one shape.
 #[derive(Debug)]
-pub struct Lamp<'g> {
+pub struct LightPipeline<'g> {
     gpu: &'g Gpu,
+    module: Module,
     compute: Compute,
     balls: usize,
 }
 
-impl<'g> Lamp<'g> {
+impl<'g> LightPipeline<'g> {
     /// Compiles the shader for scenes of this shape.
     ///
     /// # Errors
@@ -54,8 +53,9 @@ impl<'g> Lamp<'g> {
         }
         source += SKELETON;
         let module = wgsl_module(tables.moments_of_pieces(), &source)?;
-        let compute = Compute::new(gpu, "light", module, [(0, true), (1, true), (2, false)])?;
-        Ok(Self { gpu, compute, balls: scene.balls.len() })
+        let module = Module::new(gpu, "light", module)?;
+        let compute = module.compute(gpu, module.only_compute()?, &[])?;
+        Ok(Self { gpu, module, compute, balls: scene.balls.len() })
     }
 
     /// Light, cells and edges at surfaces of a scene of the shape that the shader was made for.
@@ -64,64 +64,91 @@ impl<'g> Lamp<'g> {
     /// When the device fails.
     pub fn shade(&self, scene: &Scene, settings: &Settings, surfaces: &[Option<Surface>]) -> Result<Shaded, Failure> {
         let gpu = self.gpu;
-        let scene_words: Vec<u32> = scene_rows(scene, settings).into_iter().flatten().collect();
-        let scene_buffer = gpu.storage("scene", &scene_words);
+        let scene_buffer = gpu.storage("scene", &scene_bytes(scene, settings)?);
         let mut shaded = Shaded::default();
         for portion in surfaces.chunks(PORTION) {
-            let words: Vec<u32> = portion.iter().flat_map(|surface| self.surface_words(surface.as_ref())).collect();
-            let surface_buffer = gpu.storage("surfaces", &words);
+            let rows: Vec<SurfaceRow> = portion.iter().map(|surface| self.row(surface.as_ref())).collect();
+            let surface_buffer = gpu.storage("surfaces", &laid_out("surfaces", &rows)?);
             let size = 16 * portion.len() as u64;
             let lit = gpu.results("lit", size);
-            let group = self.compute.bind(gpu, [(0, &surface_buffer), (1, &scene_buffer), (2, &lit)]);
-            let groups = (portion.len() as u32).div_ceil(ROW);
-            self.compute.run(gpu, &group, groups, (&lit, size), |bytes| {
-                let rows: &[[u32; 4]] = bytemuck::cast_slice(bytes);
-                for (surface, [x, y, z, counts]) in portion.iter().zip(rows) {
-                    let light = DVec3::from_array([x, y, z].map(|word| f64::from(f32::from_bits(*word))));
-                    shaded.push(surface.as_ref().map(|surface| surface.sent(light)), counts & 0xffff, counts >> 16);
-                }
-            })?;
+            let resources =
+                Resources::new().buffer("surfaces", &surface_buffer).buffer("scene", &scene_buffer).buffer("lit", &lit);
+            let bound = self.module.bind(gpu, &resources)?;
+            let work = self.compute.covering([portion.len() as u32, 1, 1]);
+            gpu.submit(|encoder| self.compute.encode(encoder, &bound, work, 1, None));
+            let rows = gpu.read_buffer(&lit, size, bytemuck::pod_collect_to_vec::<u8, [u32; 4]>)?;
+            for (surface, [x, y, z, counts]) in portion.iter().zip(rows) {
+                let light = Vec3::from_array([x, y, z].map(f32::from_bits)).as_dvec3();
+                shaded.push(surface.as_ref().map(|surface| surface.sent(light)), counts & 0xffff, counts >> 16);
+            }
         }
         Ok(shaded)
     }
 
-    fn surface_words(&self, surface: Option<&Surface>) -> [u32; 8] {
-        let Some(surface) = surface else { return [0; 8] };
+    fn row(&self, surface: Option<&Surface>) -> SurfaceRow {
+        let Some(surface) = surface else { return SurfaceRow::default() };
         let body = match surface.body {
             Body::Ground => u32::MAX,
             Body::Ball(index) => index as u32,
             Body::Plate(index) => (self.balls + index) as u32,
         };
-        let [[px, py, pz, body], [nx, ny, nz, seen]] = [row(surface.place, body), row(surface.normal, 1)];
-        [px, py, pz, body, nx, ny, nz, seen]
+        SurfaceRow { place: surface.place.as_vec3(), body, normal: surface.normal.as_vec3(), seen: 1 }
     }
 }
 
-/// Three numbers and a word.
-fn row(vector: DVec3, last: u32) -> [u32; 4] {
-    let [x, y, z] = vector.as_vec3().to_array().map(f32::to_bits);
-    [x, y, z, last]
+/// A `Surface` of the skeleton.
+#[derive(ShaderType, Default)]
+struct SurfaceRow {
+    place: Vec3,
+    body: u32,
+    normal: Vec3,
+    seen: u32,
 }
 
-/// The structure `Scene` of the skeleton.
-fn scene_rows(scene: &Scene, settings: &Settings) -> Vec<[u32; 4]> {
-    let number = |number: f64| (number as f32).to_bits();
+/// The start of a `Scene` of the skeleton.
+#[derive(ShaderType)]
+struct Limits {
+    border: f32,
+    curvature: f32,
+    #[shader(size(8))]
+    depth: u32,
+}
+
+/// A `Lobe` of the skeleton.
+#[derive(ShaderType, Default)]
+struct LobeRow {
+    axis: Vec3,
+    sharpness: f32,
+    amplitude: Vec3,
+}
+
+/// A `Scene` of the skeleton. The lengths of its arrays differ from scene to scene, so that they are laid out one by
+/// one; each has one element more than there are things, as it must have one.
+fn scene_bytes(scene: &Scene, settings: &Settings) -> Result<Vec<u8>, Failure> {
+    let limits = Limits { border: settings.border as f32, curvature: settings.lobe as f32, depth: settings.depth };
+    let balls = scene.balls.iter().map(|ball| ball.centre.as_vec3().extend(ball.radius as f32));
     let mut ends = 0;
     let plates = scene.plates.iter().map(|plate| {
         let first = ends;
         ends += plate.corners.len() as u32;
-        [first, ends, 0, 0]
+        UVec4::new(first, ends, 0, 0)
     });
-    let lobes = scene.lobes.iter().flat_map(|lobe| [row(lobe.axis, number(lobe.sharpness)), row(lobe.amplitude, 0)]);
-    // An array has one element more than there are things, as it must have one.
-    once([number(settings.border), number(settings.lobe), settings.depth, 0])
-        .chain(scene.balls.iter().map(|ball| row(ball.centre, number(ball.radius))))
-        .chain(once([0; 4]))
-        .chain(plates)
-        .chain(once([0; 4]))
-        .chain(lobes)
-        .chain([[0; 4]; 2])
-        .chain(scene.plates.iter().flat_map(|plate| plate.corners.iter().map(|corner| row(*corner, 0))))
-        .chain(once([0; 4]))
-        .collect()
+    let lobes = scene.lobes.iter().map(|lobe| LobeRow {
+        axis: lobe.axis.as_vec3(),
+        sharpness: lobe.sharpness as f32,
+        amplitude: lobe.amplitude.as_vec3(),
+    });
+    let corners = scene.plates.iter().flat_map(|plate| &plate.corners).map(|corner| corner.as_vec3().extend(0.0));
+    let parts = [
+        laid_out("limits", &limits)?,
+        laid_out("balls", &and_one(balls))?,
+        laid_out("plates", &and_one(plates))?,
+        laid_out("lobes", &and_one(lobes))?,
+        laid_out("corners", &and_one(corners))?,
+    ];
+    Ok(parts.concat())
+}
+
+fn and_one<T: Default>(things: impl Iterator<Item = T>) -> Vec<T> {
+    things.chain(once(T::default())).collect()
 }

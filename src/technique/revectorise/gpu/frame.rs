@@ -1,9 +1,7 @@
 //! Shadow map and receivers as textures.
 
-use wgpu::util::{DeviceExt, TextureDataOrder};
-
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, TextureFormat, TextureView};
 use crate::technique::revectorise::{Receivers, ShadowMap};
 
 /// Depth beyond everything: the border of the map, where all is lit.
@@ -16,9 +14,9 @@ pub struct GpuFrame {
     pub(super) size: u32,
     /// Pixels of the picture.
     pub(super) pixels: [u32; 2],
-    pub(super) map: wgpu::TextureView,
-    pub(super) points: wgpu::TextureView,
-    pub(super) slopes: wgpu::TextureView,
+    pub(super) map: TextureView,
+    pub(super) points: TextureView,
+    pub(super) slopes: TextureView,
 }
 
 impl GpuFrame {
@@ -42,43 +40,27 @@ impl GpuFrame {
             slopes.extend([receiver.dz_dx, receiver.dz_dy]);
         }
         let pixels = [receivers.width, receivers.height];
-        let texture = |label: &str, size: [u32; 2], format, data: &[f32]| {
-            let descriptor = wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            };
-            let data = bytemuck::cast_slice(data);
-            let texture =
-                gpu.device.create_texture_with_data(&gpu.queue, &descriptor, TextureDataOrder::LayerMajor, data);
-            texture.create_view(&wgpu::TextureViewDescriptor::default())
-        };
         let frame = Self {
             size: map.size,
             pixels,
-            map: texture("shadow map", [map.size + 2; 2], wgpu::TextureFormat::R32Float, &depths),
-            points: texture("receivers", pixels, wgpu::TextureFormat::Rgba32Float, &points),
-            slopes: texture("slopes", pixels, wgpu::TextureFormat::Rg32Float, &slopes),
+            map: gpu.texture("shadow map", [map.size + 2; 2], TextureFormat::R32Float, &depths),
+            points: gpu.texture("receivers", pixels, TextureFormat::Rgba32Float, &points),
+            slopes: gpu.texture("slopes", pixels, TextureFormat::Rg32Float, &slopes),
         };
         gpu.check()?;
         Ok(frame)
     }
 
-    /// Pixels of the picture.
+    /// The number of pixels of the picture.
     pub(super) fn pixel_count(&self) -> usize {
         self.pixels[0] as usize * self.pixels[1] as usize
     }
 }
 
-/// Fails if a shadow map of this size cannot be had.
+/// Fails if the device has no shadow map of this size.
 ///
 /// # Errors
-/// With the sizes that can.
+/// With the sizes that it has.
 pub(super) fn check_map(gpu: &Gpu, size: u32) -> Result<(), Failure> {
     // The border takes a texel on each side.
     let most = gpu.device.limits().max_texture_dimension_2d - 2;
@@ -90,10 +72,10 @@ pub(super) fn check_map(gpu: &Gpu, size: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Fails if a picture of this size cannot be had.
+/// Fails if the device has no picture of this size.
 ///
 /// # Errors
-/// With the sizes that can.
+/// With the sizes that it has.
 pub(super) fn check_picture(gpu: &Gpu, width: u32, height: u32) -> Result<(), Failure> {
     let limits = gpu.device.limits();
     let side = limits.max_texture_dimension_2d;

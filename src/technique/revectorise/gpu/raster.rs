@@ -4,12 +4,15 @@
 //! They make the same [`ShadowMap`] and [`Receivers`] as the rays of
 //! [`passes`](crate::technique::revectorise::stage), but for pixels at the borders of faces.
 
+use encase::ShaderType;
 use glam::DVec3;
-use wgpu::util::DeviceExt;
 
 use super::frame::{check_map, check_picture};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::gpu::Gpu;
+use crate::emit::wgsl_text;
+use crate::gpu::draw::{self, Canvas, DepthBuffer, DepthTest, Drawing, Triangles};
+use crate::gpu::pass::{Module, Resources};
+use crate::gpu::{CompareFunction, Gpu, Texture, TextureFormat, view};
 use crate::scene::light::Punctual;
 use crate::scene::view::View;
 use crate::technique::revectorise::stage::{Bias, Stage};
@@ -17,13 +20,24 @@ use crate::technique::revectorise::{DEPTH_UNIT, Receiver, ReceiverKind, Receiver
 
 const SHADER: &str = include_str!("wgsl/raster.wgsl");
 
-/// What a corner of a face consists of: clip coordinates of light and camera, anchor, slope.
+/// Numbers of a corner of a face: clip coordinates of light and camera, anchor, slope.
 const WORDS: usize = 14;
+const DEPTH: TextureFormat = TextureFormat::Depth32Float;
 
-/// What a camera sees.
+/// The uniform `goal` of raster.wgsl.
+#[derive(ShaderType)]
+struct Target {
+    size: f32,
+    max_slope: f32,
+    unit: f32,
+    constant: f32,
+    slope: f32,
+}
+
+/// The view of a camera.
 #[derive(Debug, Clone)]
 pub struct GpuPicture {
-    /// Where it lies in the shadow map.
+    /// The places of its pixels in the shadow map.
     pub receivers: Receivers,
     /// For each pixel the number of the triangle that is seen, in the scene's order; `None` for the background.
     pub triangles: Vec<Option<u32>>,
@@ -34,9 +48,7 @@ pub struct GpuPicture {
 pub struct Raster<'g, 's> {
     gpu: &'g Gpu,
     stage: &'s Stage<'s>,
-    module: wgpu::ShaderModule,
-    group: wgpu::BindGroupLayout,
-    layout: wgpu::PipelineLayout,
+    module: Module,
 }
 
 impl<'g, 's> Raster<'g, 's> {
@@ -45,46 +57,23 @@ impl<'g, 's> Raster<'g, 's> {
     /// # Errors
     /// When the device fails.
     pub fn new(gpu: &'g Gpu, stage: &'s Stage<'s>) -> Result<Self, Failure> {
-        let label = Some("raster");
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label,
-            source: wgpu::ShaderSource::Wgsl(SHADER.into()),
-        });
-        let group = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label,
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Buffer {
-                    ty: wgpu::BufferBindingType::Uniform,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
-        });
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label,
-            bind_group_layouts: &[Some(&group)],
-            immediate_size: 0,
-        });
-        gpu.check()?;
-        Ok(Self { gpu, stage, module, group, layout })
+        let module = Module::new(gpu, "raster", wgsl_text("raster", SHADER)?)?;
+        Ok(Self { gpu, stage, module })
     }
 
-    /// What the light sees.
+    /// Renders the view of the light.
     ///
     /// # Errors
     /// When the size is beyond the device's limits, or the device fails.
     pub fn shadow_map(&self, size: u32, bias: Bias) -> Result<ShadowMap, Failure> {
         check_map(self.gpu, size)?;
-        let depth = self.texture([size; 2], wgpu::TextureFormat::Depth32Float);
-        self.draw("from_light", "shadow_map", [size, size], size, bias, &[], &depth)?;
-        let depth = self.rows::<f32>(&depth)?;
+        let depth = self.gpu.target("depths", [size; 2], DEPTH);
+        self.draw(["from_light", "shadow_map"], size, bias, &[], &depth)?;
+        let depth = self.gpu.read_texture(&depth)?;
         Ok(ShadowMap { size, depth })
     }
 
-    /// What the camera sees, in a shadow map of a size.
+    /// Renders the view of the camera, with its places in a shadow map of a size.
     ///
     /// # Errors
     /// When the sizes are beyond the device's limits, or the device fails.
@@ -92,17 +81,14 @@ impl<'g, 's> Raster<'g, 's> {
         check_map(self.gpu, size)?;
         check_picture(self.gpu, width, height)?;
         let pixels = [width, height];
-        let depth = self.texture(pixels, wgpu::TextureFormat::Depth32Float);
-        let targets = [
-            self.texture(pixels, wgpu::TextureFormat::Rgba32Float),
-            self.texture(pixels, wgpu::TextureFormat::Rg32Float),
-            self.texture(pixels, wgpu::TextureFormat::R32Uint),
-        ];
-        self.draw("from_camera", "receivers", pixels, size, Bias::default(), &targets, &depth)?;
+        let depth = self.gpu.target("depths", pixels, DEPTH);
+        let targets = [TextureFormat::Rgba32Float, TextureFormat::Rg32Float, TextureFormat::R32Uint]
+            .map(|format| self.gpu.target("receivers", pixels, format));
+        self.draw(["from_camera", "receivers"], size, Bias::default(), &targets, &depth)?;
         let [points, slopes, faces] = targets;
-        let points = self.rows::<[f32; 4]>(&points)?;
-        let slopes = self.rows::<[f32; 2]>(&slopes)?;
-        let faces = self.rows::<u32>(&faces)?;
+        let points = self.gpu.read_texture::<[f32; 4]>(&points)?;
+        let slopes = self.gpu.read_texture::<[f32; 2]>(&slopes)?;
+        let faces = self.gpu.read_texture::<u32>(&faces)?;
         let receivers = points.into_iter().zip(slopes).zip(&faces).map(|(([u, v, z, kind], [dz_dx, dz_dy]), face)| {
             let kind = match (face, kind) {
                 (0, _) => return Receiver::default(),
@@ -156,134 +142,39 @@ impl<'g, 's> Raster<'g, 's> {
         (anchor, [plane.du as f32, plane.dv as f32])
     }
 
-    fn texture(&self, [width, height]: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
-        self.gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("raster"),
-            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        })
-    }
-
-    /// Draws all faces.
-    #[allow(clippy::too_many_arguments)]
+    /// Draws all faces with a vertex and a fragment shader.
     fn draw(
         &self,
-        vertex: &str,
-        fragment: &str,
-        pixels: [u32; 2],
+        [vertex, fragment]: [&str; 2],
         size: u32,
         bias: Bias,
-        targets: &[wgpu::Texture],
-        depth: &wgpu::Texture,
+        targets: &[Texture],
+        depth: &Texture,
     ) -> Result<(), Failure> {
         let gpu = self.gpu;
-        let camera = self.stage.scene.camera.view(pixels[0], pixels[1]);
+        let camera = self.stage.scene.camera.view(depth.width(), depth.height());
         let vertices = self.vertices(&camera);
-        let bytes: &[u8] = bytemuck::cast_slice(&vertices);
-        let most = gpu.device.limits().max_buffer_size;
-        if bytes.len() as u64 > most {
+        let most = gpu.largest_buffer();
+        if size_of_val(vertices.as_slice()) as u64 > most {
             let triangles = vertices.len() / (3 * WORDS);
             let error = Diagnostic::error(codes::DEVICE, format!("a scene of {triangles} triangles does not fit"))
                 .help(format!("buffers on {} have at most {most} bytes; try `--backend cpu`", gpu.describe()));
             return Err(Failure::bare("", error));
         }
-        let init = |label, contents, usage| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
-        };
-        let vertices = init("corners", bytes, wgpu::BufferUsages::VERTEX);
-        let parameters: [f32; 8] = [size as f32, max_slope(size), DEPTH_UNIT, bias.constant, bias.slope, 0.0, 0.0, 0.0];
-        let uniform = init("goal", bytemuck::cast_slice(&parameters), wgpu::BufferUsages::UNIFORM);
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.group,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
-        });
-        let formats: Vec<_> = targets.iter().map(|target| Some(target.format().into())).collect();
-        let pipeline = self.pipeline(vertex, fragment, &formats);
-        let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let views: Vec<wgpu::TextureView> = targets.iter().map(view).collect();
-        let attachments: Vec<_> = views
-            .iter()
-            .map(|view| {
-                let ops = wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                };
-                Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
-            })
-            .collect();
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                color_attachments: &attachments,
-                depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                    view: &view(depth),
-                    depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
-                    stencil_ops: None,
-                }),
-                ..Default::default()
-            });
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.set_vertex_buffer(0, vertices.slice(..));
-            pass.draw(0..(bytes.len() / (4 * WORDS)) as u32, 0..1);
-        }
-        gpu.queue.submit([encoder.finish()]);
+        let corners = gpu.corners("corners", &vertices);
+        let Bias { constant, slope } = bias;
+        let goal = Target { size: size as f32, max_slope: max_slope(size), unit: DEPTH_UNIT, constant, slope };
+        let goal = gpu.uniform("goal", &goal)?;
+        let bound = self.module.bind(gpu, &Resources::new().buffer("goal", &goal))?;
+        let formats: Vec<_> = targets.iter().map(Texture::format).collect();
+        let test = DepthTest { format: DEPTH, passes: CompareFunction::Less, write: true };
+        let drawing = Drawing { vertex, fragment, targets: &formats, depth: Some(test), constants: &[] };
+        let faces = self.module.draw(gpu, &drawing)?;
+        let targets: Vec<_> = targets.iter().map(view).collect();
+        let depth = DepthBuffer { view: &view(depth), clear: 1.0, keep: true };
+        let canvas = Canvas { targets: &targets, depth: Some(depth) };
+        let triangles = Triangles::Corners(&corners, (vertices.len() / WORDS) as u32);
+        gpu.submit(|encoder| draw::encode(encoder, &canvas, &bound, &[(&faces, triangles)], None));
         gpu.check()
-    }
-
-    fn pipeline(
-        &self,
-        vertex: &str,
-        fragment: &str,
-        formats: &[Option<wgpu::ColorTargetState>],
-    ) -> wgpu::RenderPipeline {
-        let attributes = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x2];
-        let options = wgpu::PipelineCompilationOptions::default();
-        self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(fragment),
-            layout: Some(&self.layout),
-            vertex: wgpu::VertexState {
-                module: &self.module,
-                entry_point: Some(vertex),
-                compilation_options: options.clone(),
-                buffers: &[Some(wgpu::VertexBufferLayout {
-                    array_stride: 4 * WORDS as u64,
-                    step_mode: wgpu::VertexStepMode::Vertex,
-                    attributes: &attributes,
-                })],
-            },
-            // Both sides of a face are there.
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: wgpu::TextureFormat::Depth32Float,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::Less),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            }),
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &self.module,
-                entry_point: Some(fragment),
-                compilation_options: options,
-                targets: formats,
-            }),
-            multiview_mask: None,
-            cache: None,
-        })
-    }
-
-    /// The texels of a texture, row by row.
-    fn rows<T: bytemuck::Pod>(&self, texture: &wgpu::Texture) -> Result<Vec<T>, Failure> {
-        let texel = size_of::<T>();
-        let (bytes, pitch) = self.gpu.read_texture(texture, texel as u32)?;
-        let width = texture.width() as usize * texel;
-        Ok(bytes.chunks(pitch).flat_map(|row| bytemuck::pod_collect_to_vec::<u8, T>(&row[..width])).collect())
     }
 }
