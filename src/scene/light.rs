@@ -4,8 +4,8 @@ use std::fmt;
 
 use glam::{DVec2, DVec3};
 
-use super::Scene;
 use super::view::View;
+use super::{Scene, flat};
 use crate::diag::{Diagnostic, Failure, codes};
 
 /// A light of a scene.
@@ -205,11 +205,9 @@ impl Light {
 }
 
 impl Polygon {
-    /// The sum of the cross products of its sides: normal to its plane, towards the side that emits, and twice as
-    /// long as the area is large.
+    /// Normal to its plane, towards the side that emits, and twice as long as the area is large.
     pub fn cross(&self) -> DVec3 {
-        let Some((first, rest)) = self.corners.split_first() else { return DVec3::ZERO };
-        rest.windows(2).map(|pair| (pair[0] - *first).cross(pair[1] - *first)).sum()
+        flat::cross(&self.corners)
     }
 
     /// Unit normal towards the side that emits.

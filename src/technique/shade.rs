@@ -20,7 +20,8 @@ pub fn shade(stage: &Stage<'_>, surfaces: &Surfaces, visibility: &[f32]) -> Rgb3
                 let facing = point.smooth_normal.dot(towards).max(0.0) * stage.light.brightness(point.place);
                 // The sky above is brighter than the ground below.
                 let sky = 0.75 + 0.25 * point.smooth_normal.y;
-                let light = ambient * sky + (1.0 - ambient) * f64::from(*visible) * facing;
+                let light = DVec3::splat(ambient * sky)
+                    + (1.0 - ambient) * f64::from(*visible) * facing * DVec3::from_array(stage.light.colour());
                 DVec3::from_array(scene.objects[point.object as usize].colour) * light
             }
         };

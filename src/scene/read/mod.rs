@@ -4,19 +4,22 @@
 //! does not hide the mistakes in the others, and every number is checked where it
 //! stands.
 
+mod lights;
+#[cfg(test)]
+mod tests;
+
 use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use serde::Deserialize;
 
-use super::light::{Directional, Light, Spot};
-use super::shapes::Shape;
-use super::shapes::letters;
-use super::shapes::solid::Triangle;
-use super::view::Camera;
-use super::{Object, Scene, mesh};
 use crate::diag::{Diagnostic, Source, codes};
+use crate::scene::shapes::Shape;
+use crate::scene::shapes::letters;
+use crate::scene::shapes::solid::Triangle;
+use crate::scene::view::Camera;
+use crate::scene::{Object, Scene, mesh};
 use crate::text::raw::{Raw, Reader};
 
 type Result<T> = std::result::Result<T, Diagnostic>;
@@ -28,7 +31,10 @@ struct SceneRon<'a> {
     title: String,
     #[serde(borrow)]
     camera: Raw<'a>,
-    light: Raw<'a>,
+    #[serde(default)]
+    light: Option<Raw<'a>>,
+    #[serde(default)]
+    lights: Option<Raw<'a>>,
     #[serde(default)]
     ambient: Option<Raw<'a>>,
     #[serde(default)]
@@ -44,20 +50,6 @@ struct CameraRon<'a> {
     target: Raw<'a>,
     #[serde(default)]
     angle: Option<Raw<'a>>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-enum LightRon<'a> {
-    Directional {
-        #[serde(borrow)]
-        direction: Raw<'a>,
-    },
-    Spot {
-        position: Raw<'a>,
-        target: Raw<'a>,
-        angle: Raw<'a>,
-    },
 }
 
 #[derive(Deserialize)]
@@ -149,9 +141,9 @@ pub(super) fn scene(name: &str, source: &Arc<Source>, directory: &Path) -> std::
     let ron: SceneRon<'_> = reader.get(reader.whole()).map_err(|error| vec![error])?;
     let read = Read { reader, directory };
     let mut problems = Vec::new();
+    let camera = read.camera(ron.camera).map_err(|error| problems.push(error)).ok();
+    let lights = read.lights(ron.light, ron.lights).map_err(|errors| problems.extend(errors)).ok();
     let mut keep = |error: Diagnostic| problems.push(error);
-    let camera = read.camera(ron.camera).map_err(&mut keep).ok();
-    let light = read.light(ron.light).map_err(&mut keep).ok();
     let ambient = read.or(ron.ambient, 0.25, |raw| read.number(raw, 0.0, 1.0)).map_err(&mut keep).ok();
     let background = read.or(ron.background, [0.55, 0.65, 0.8], |raw| read.colour(raw)).map_err(&mut keep).ok();
     let mut objects = Vec::new();
@@ -168,16 +160,10 @@ pub(super) fn scene(name: &str, source: &Arc<Source>, directory: &Path) -> std::
     if ron.objects.is_empty() {
         keep(Diagnostic::error(codes::SCENE, "the scene is empty").help("list at least one object"));
     }
-    match (camera, light, ambient, background) {
-        (Some(camera), Some(light), Some(ambient), Some(background)) if problems.is_empty() => Ok(Scene {
-            name: name.to_owned(),
-            title: ron.title,
-            camera,
-            lights: vec![light],
-            ambient,
-            background,
-            objects,
-        }),
+    match (camera, lights, ambient, background) {
+        (Some(camera), Some(lights), Some(ambient), Some(background)) if problems.is_empty() => {
+            Ok(Scene { name: name.to_owned(), title: ron.title, camera, lights, ambient, background, objects })
+        }
         _ => Err(problems),
     }
 }
@@ -258,27 +244,6 @@ impl<'a> Read<'a> {
             return Err(self.wrong(raw, "the camera looks at its own place").help("move `eye` or `target`"));
         }
         Ok(camera)
-    }
-
-    fn light(&self, raw: Raw<'a>) -> Result<Light> {
-        match self.reader.get(raw)? {
-            LightRon::Directional { direction: at } => {
-                let direction = self.place(at)?;
-                if direction.length() < SMALL {
-                    let error = self.wrong(at, "the light has no direction");
-                    return Err(error.help("say which way it goes, for instance (0.3, -1, 0.2)"));
-                }
-                Ok(Light::Directional(Directional { direction, colour: [1.0; 3] }))
-            }
-            LightRon::Spot { position, target, angle } => {
-                let (place, aim) = (self.place(position)?, self.place(target)?);
-                if (aim - place).length() < SMALL {
-                    let error = self.wrong(target, "the light points at its own place");
-                    return Err(error.help("move `position` or `target`"));
-                }
-                Ok(Light::Spot(Spot { position: place, target: aim, angle: self.angle(angle)?, colour: [1.0; 3] }))
-            }
-        }
     }
 
     fn object(&self, raw: Raw<'a>) -> Result<Object> {
