@@ -8,7 +8,8 @@
 use std::collections::BTreeSet;
 
 use crate::eval::{Interpreter, NeedsFetch};
-use crate::program::{Cond, CondId, Domain, InputId, InputSet, Program, Value};
+use crate::program::claims::{Candidates, Claim, decide};
+use crate::program::{Domain, InputId, InputSet, Program, Value};
 
 /// Most evaluations for one case.
 const MAX_TRIES: usize = 300_000;
@@ -25,18 +26,18 @@ pub struct Arrival {
     pub line: Option<usize>,
     /// The components of the result.
     pub values: Vec<f64>,
-    /// How many inputs differ from their defaults or are fetched.
+    /// The number of inputs that differ from their defaults or are fetched.
     pub deviations: usize,
-    /// Whether every assumption that can be judged there holds.
+    /// Every assumption that can be judged there holds.
     pub assumed: bool,
 }
 
-/// What reaches one case.
+/// The states and points that reach a case.
 #[derive(Debug, Clone)]
 pub struct Reach {
     /// The states that its guard, and the guards before it, do not exclude.
     pub states: Vec<usize>,
-    /// Whether that is all there is to say: no guard up to here depends on more than the state.
+    /// These states reach the case for certain: no guard up to here depends on more than the state.
     pub exact: bool,
     /// The point with the fewest inputs that differ from their defaults.
     pub smallest: Option<Arrival>,
@@ -44,7 +45,7 @@ pub struct Reach {
     pub lines: Vec<Option<Arrival>>,
 }
 
-/// What reaches a case, given as an index into [`Program::rows`].
+/// The states and points that reach a case, given as an index into [`Program::rows`].
 pub fn reach(program: &Program, row: usize) -> Reach {
     let mut search = Search::new(program, row);
     let states = search.states();
@@ -76,28 +77,15 @@ pub fn in_state(program: &Program, row: usize, state: usize) -> Option<Arrival> 
     search.smallest
 }
 
-/// The row that a state leads to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Claimed {
-    /// The first row whose guard the state does not exclude; `None` for the default.
-    pub row: Option<usize>,
-    /// Whether its guard holds in all of the state.
-    pub certain: bool,
-}
-
-/// The rows that the states lead to, by number of the state.
-pub fn claims(program: &Program) -> Vec<Claimed> {
+/// The first claim on every state, by number of the state; `None` where the default gives the value.
+pub(crate) fn claims(program: &Program) -> Vec<Option<Claim>> {
+    let candidates = Candidates::new(program);
     let mut levels = vec![0; program.inputs.len()];
-    let mut claim = |state: usize| {
+    let first = |state: usize| {
         program.states.write(state, &mut levels);
-        let judged = program.rows.iter().map(|row| judge(program, row.guard, &levels));
-        let first = judged.enumerate().find(|(_, judged)| *judged != Some(false));
-        match first {
-            Some((row, judged)) => Claimed { row: Some(row), certain: judged == Some(true) },
-            None => Claimed { row: None, certain: true },
-        }
+        candidates.first(program, state, &levels)
     };
-    (0..program.states.count()).map(&mut claim).collect()
+    (0..program.states.count()).map(first).collect()
 }
 
 /// Earlier rows that are sure to take states in which the guard of a row could
@@ -108,45 +96,14 @@ pub fn earlier(program: &Program, row: usize) -> Vec<(usize, usize)> {
     for state in 0..program.states.count() {
         program.states.write(state, &mut levels);
         let mut earlier = 0..row;
-        if judge(program, program.rows[row].guard, &levels) != Some(false)
-            && let Some(first) = earlier.find(|row| judge(program, program.rows[*row].guard, &levels) == Some(true))
+        if decide(program, &program.pool, program.rows[row].guard, &levels) != Some(false)
+            && let Some(first) =
+                earlier.find(|row| decide(program, &program.pool, program.rows[*row].guard, &levels) == Some(true))
         {
             counts[first] += 1;
         }
     }
     counts.into_iter().enumerate().filter(|(_, count)| *count > 0).collect()
-}
-
-/// Whether a condition holds in a state, if that depends on nothing else.
-fn judge(program: &Program, condition: CondId, levels: &[u8]) -> Option<bool> {
-    let junction = |parts: &[CondId], stop: bool| {
-        let mut known = Some(!stop);
-        for part in parts {
-            match judge(program, *part, levels) {
-                Some(holds) if holds == stop => return Some(stop),
-                Some(_) => {}
-                None => known = None,
-            }
-        }
-        known
-    };
-    match program.pool.cond(condition) {
-        Cond::Const(value) => Some(*value),
-        Cond::Level(input, _) if program.fetched.contains(*input) => None,
-        Cond::Level(input, set) => Some(set.contains(levels[input.index()])),
-        Cond::Compare(..) => None,
-        Cond::Not(inner) => judge(program, *inner, levels).map(|holds| !holds),
-        Cond::And(parts) => junction(parts, false),
-        Cond::Or(parts) => junction(parts, true),
-        Cond::If(chooser, then, other) => match judge(program, *chooser, levels) {
-            Some(true) => judge(program, *then, levels),
-            Some(false) => judge(program, *other, levels),
-            None => {
-                let (then, other) = (judge(program, *then, levels), judge(program, *other, levels));
-                if then == other { then } else { None }
-            }
-        },
-    }
 }
 
 struct Search<'p> {
@@ -174,13 +131,13 @@ impl<'p> Search<'p> {
         let mut levels = vec![0; program.inputs.len()];
         let possible = (0..program.states.count()).filter(|state| {
             program.states.write(*state, &mut levels);
-            let judged = |row: usize| judge(program, program.rows[row].guard, &levels);
+            let judged = |row: usize| decide(program, &program.pool, program.rows[row].guard, &levels);
             judged(self.row) != Some(false) && (0..self.row).all(|row| judged(row) != Some(true))
         });
         possible.collect()
     }
 
-    /// How many inputs of a state differ from their defaults.
+    /// The number of inputs of a state that differ from their defaults.
     fn distance(&self, state: usize) -> usize {
         let mut levels = vec![0; self.program.inputs.len()];
         self.program.states.write(state, &mut levels);
@@ -191,7 +148,7 @@ impl<'p> Search<'p> {
         self.program.states.digits().iter().filter(|(id, _)| differs(id)).count()
     }
 
-    /// Whether states this far from the defaults have nothing better to offer.
+    /// Returns whether states this far from the defaults have nothing better to offer.
     fn done(&self, distance: usize) -> bool {
         let settled = |found: &Option<Arrival>| found.as_ref().is_some_and(|f| f.assumed && f.deviations <= distance);
         self.tries > MAX_TRIES || settled(&self.smallest) && self.lines.iter().all(settled)
@@ -250,7 +207,7 @@ impl<'p> Search<'p> {
         }
     }
 
-    /// What a point leads to, if it is the case in question.
+    /// The arrival of a point, if it reaches the case in question.
     fn arrival(&mut self, point: &[Option<Value>]) -> Result<Option<Arrival>, NeedsFetch> {
         self.tries += 1;
         let outcome = self.interpreter.evaluate(point)?;
@@ -346,12 +303,14 @@ fn combinations(program: &Program, row: usize) -> Vec<Vec<(InputId, f64)>> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use crate::diag::codes;
 
     fn rsmss() -> Program {
         Program::read("tables/rsmss.ron").unwrap_or_else(|e| panic!("{e}"))
     }
 
     /// Every case and every line of the published tables is reached, and by what the interpreter confirms.
+    /// A line that the table itself calls dead is reached where the assumptions fail.
     #[test]
     fn every_line_is_reached() {
         for file in ["tables/rsmss.ron", "tables/smsr.ron", "docs/examples/first.ron"] {
@@ -361,7 +320,8 @@ mod tests {
                 assert!(found.smallest.is_some(), "{file}: case {}", row.id);
                 for (number, line) in found.lines.iter().enumerate() {
                     let arrival = line.as_ref().unwrap_or_else(|| panic!("{file}: case {}, line {number}", row.id));
-                    assert!(arrival.assumed, "{file}: case {}, line {number}: {arrival:?}", row.id);
+                    let dead = row.allow.iter().any(|allow| allow.code.value == codes::DEAD_LINE.0);
+                    assert!(arrival.assumed || dead, "{file}: case {}, line {number}: {arrival:?}", row.id);
                     assert_eq!(arrival.line, Some(number));
                 }
             }
@@ -387,7 +347,7 @@ mod tests {
         let row = program.rows.iter().position(|row| row.id == 19).unwrap();
         assert_eq!(earlier(&program, row), [(0, 4 * 5)]);
         let state = reach(&program, row).states[3];
-        assert_eq!(claims(&program)[state], Claimed { row: Some(row), certain: true });
+        assert_eq!(claims(&program)[state], Some(Claim { row, always: true }));
         assert!(in_state(&program, row, state).is_some());
     }
 }

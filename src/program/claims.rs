@@ -105,6 +105,13 @@ impl Candidates {
         Some(row)
     }
 
+    /// The first row that may take a state, with its claim; `None` where the default gives the value.
+    pub(crate) fn first(&self, program: &Program, state: usize, levels: &[u8]) -> Option<Claim> {
+        let decided = |row: usize| (row, decide(program, &program.pool, program.rows[row].guard, levels));
+        let (row, holds) = self.of(state).map(decided).find(|(_, holds)| *holds != Some(false))?;
+        Some(Claim { row, always: holds == Some(true) })
+    }
+
     /// The rows of a state, in order.
     pub(crate) fn of(&self, state: usize) -> impl Iterator<Item = usize> + '_ {
         let mut places = Places::default();
@@ -231,7 +238,8 @@ pub(crate) fn decide(program: &Program, pool: &Pool, condition: CondId, levels: 
         Cond::If(c, a, b) => match decide(program, pool, *c, levels) {
             Some(true) => decide(program, pool, *a, levels),
             Some(false) => decide(program, pool, *b, levels),
-            None => None,
+            // Whatever the chooser is, both may say the same.
+            None => decide(program, pool, *a, levels).filter(|yes| decide(program, pool, *b, levels) == Some(*yes)),
         },
     }
 }
@@ -251,6 +259,30 @@ fn junction(program: &Program, pool: &Pool, parts: &[CondId], levels: &[u8], dec
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Where the chooser of an `if` is not known but both branches say the same, so does the `if`.
+    #[test]
+    fn branches_that_agree_need_no_chooser() {
+        let text = r#"Table(language: 1, name: "agree", hit_policy: First,
+            inputs: {"b": Bool(), "x": Range(from: 0, to: 1)}, output: Number(),
+            cases: [
+                Case(id: 1, when: "if x < 0.5 { b } else { b && x < 2 }", value: 1),
+                Case(id: 2, when: "if x < 0.5 { !b } else { b || !b }", value: 2),
+            ],
+            default: 0)"#;
+        let table = crate::table::Table::parse(crate::diag::Source::new("agree.ron", text));
+        let program = table.and_then(|table| Program::check(&table)).unwrap_or_else(|e| panic!("{e}"));
+        let candidates = Candidates::new(&program);
+        let mut levels = vec![0; program.inputs.len()];
+        let mut first = |state: usize| {
+            program.states.write(state, &mut levels);
+            candidates.first(&program, state, &levels)
+        };
+        // Without b, case 1 fails on both sides of 0.5 and case 2 holds on both.
+        assert_eq!(first(0), Some(Claim { row: 1, always: true }));
+        // With b, the two sides of case 1 differ in what they ask.
+        assert_eq!(first(1), Some(Claim { row: 0, always: false }));
+    }
 
     #[test]
     fn boxes_find_what_looking_everywhere_finds() {

@@ -3,7 +3,8 @@
 
 use maud::{Markup, html};
 
-use crate::explain::reach::{self, Claimed};
+use crate::explain::reach;
+use crate::program::claims::Claim;
 use crate::program::{InputId, Program};
 
 /// Most states that are drawn.
@@ -56,9 +57,9 @@ pub(super) fn matrix(program: &Program) -> Markup {
     }
 }
 
-fn square(program: &Program, claim: Claimed, x: usize, y: usize) -> Markup {
+fn square(program: &Program, claim: Option<Claim>, x: usize, y: usize) -> Markup {
     let side = SIDE - 1;
-    let Some(index) = claim.row else {
+    let Some(Claim { row: index, always }) = claim else {
         return html! {
             rect x=(x) y=(y) width=(side) height=(side) fill="#f4f4f0" {}
             circle cx=(x + side / 2) cy=(y + side / 2) r="1.5" fill="#9aa1ad" {}
@@ -66,7 +67,7 @@ fn square(program: &Program, claim: Claimed, x: usize, y: usize) -> Markup {
     };
     // Steps of the golden angle keep neighbouring cases apart.
     let hue = index * 137 % 360;
-    let lightness = if claim.certain { 76 } else { 91 };
+    let lightness = if always { 76 } else { 91 };
     let id = program.rows[index].id;
     html! {
         a href=(format!("#row-{id}")) {
