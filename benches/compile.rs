@@ -8,13 +8,13 @@ mod synthetic;
 
 use divan::Bencher;
 use umbrage::emit::{self, Target};
-use umbrage::plan::{LookupPlace, Plan, Proved, Shape};
+use umbrage::plan::{Plan, Shape};
 use umbrage::program::Program;
-use umbrage::prove::exact;
+use umbrage::prove::Proved;
 use umbrage::table::Table;
 
 const TABLES: [&str; 2] = ["tables/smsr.ron", "tables/rsmss.ron"];
-const SHAPES: [Shape; 2] = [Shape::Ladder, Shape::Switch(LookupPlace::Constants)];
+const SHAPES: [Shape; 2] = [Shape::Ladder, Shape::Switch];
 
 fn program(path: &str) -> Program {
     Program::read(path).unwrap_or_else(|error| panic!("{error}"))
@@ -52,7 +52,7 @@ fn plan(bencher: Bencher<'_, '_>, shape: Shape) {
 fn prove(bencher: Bencher<'_, '_>, shape: Shape) {
     let program = program(TABLES[1]);
     let plan = Plan::new(&program, shape).unwrap_or_else(|error| panic!("{error}"));
-    bencher.bench(|| exact::prove(&plan).unwrap_or_else(|error| panic!("{error:?}")).paths);
+    bencher.bench(|| umbrage::prove::prove(&plan).unwrap_or_else(|error| panic!("{error:?}")).paths);
 }
 
 #[divan::bench(args = TABLES, consts = [0, 1])]

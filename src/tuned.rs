@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
-use crate::plan::{LookupPlace, Plan, Shape};
+use crate::plan::{Plan, Shape};
 use crate::program::Program;
 use crate::text::file::{read_text, shown};
 
@@ -144,7 +144,7 @@ impl Auto {
         {
             return Self { shape, assume: choice.assume, tuned: true };
         }
-        let switch = Shape::Switch(LookupPlace::Constants);
+        let switch = Shape::Switch;
         let shape = if Plan::new(program, switch).is_ok() { switch } else { Shape::Ladder };
         Self { shape, assume: false, tuned: false }
     }
@@ -205,13 +205,13 @@ mod tests {
     #[test]
     fn auto_is_what_was_tuned_or_else_the_default() {
         let program = Program::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"));
-        let default = Auto { shape: Shape::Switch(LookupPlace::Constants), assume: false, tuned: false };
+        let default = Auto { shape: Shape::Switch, assume: false, tuned: false };
         assert_eq!(Auto::of(&program, None), default);
         let mut tuned = Tuned::new("d");
         tuned.set(Choice { assume: true, ..choice("smsr", "switch_buffer+assume") });
         assert_eq!(Auto::of(&program, Some(&tuned)), default, "another text of the table");
         tuned.tables[0].fingerprint = program.fingerprint();
-        let expected = Auto { shape: Shape::Switch(LookupPlace::Buffer), assume: true, tuned: true };
+        let expected = Auto { shape: Shape::SwitchBuffer, assume: true, tuned: true };
         assert_eq!(Auto::of(&program, Some(&tuned)), expected);
     }
 

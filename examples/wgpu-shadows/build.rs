@@ -1,7 +1,7 @@
 //! Compiles the tables when the program is built: five plans of each into WGSL, and into Rust what their cases
 //! are called.
 
-use umbrage::plan::{LookupPlace, Shape};
+use umbrage::plan::Shape;
 
 fn main() -> Result<(), umbrage::build::Errors> {
     umbrage::build::Tables::new("../../tables/rsmss.ron")
@@ -11,7 +11,7 @@ fn main() -> Result<(), umbrage::build::Errors> {
         .plan(Shape::Ladder)
         .plan(Shape::Ordered)
         .plan(Shape::Gathered)
-        .plan(Shape::Switch(LookupPlace::Constants))
+        .plan(Shape::Switch)
         .plan(Shape::Tree)
         .compile()?;
     Ok(())

@@ -16,8 +16,9 @@ use std::path::{Path, PathBuf};
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::{self, Beside, Target};
-use crate::plan::{LookupPlace, Plan, PlanOptions, Proof, Shape, Weights, is_unsuitable};
+use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::Program;
+use crate::prove::{Proof, is_unsuitable};
 use crate::text::file::{PendingFile, io_reason, shown, unwritable};
 use crate::tuned::{Auto, Tuned};
 
@@ -48,7 +49,7 @@ impl Default for Options {
     /// graphics processors, and what was tuned; in every language, each in one form.
     fn default() -> Self {
         Self {
-            shapes: vec![Shape::Ladder, Shape::Ordered, Shape::Switch(LookupPlace::Constants)],
+            shapes: vec![Shape::Ladder, Shape::Ordered, Shape::Switch],
             targets: Target::DEFAULT.to_vec(),
             auto: true,
             tuned: Vec::new(),

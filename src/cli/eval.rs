@@ -17,11 +17,12 @@ use crate::eval::{self, Batch, Interpreter, NeedsFetch};
 use crate::explain::explain;
 #[cfg(feature = "gpu")]
 use crate::gpu::{AdapterChoice, Gpu, Kernel, Language};
-use crate::plan::Shape;
 #[cfg(feature = "gpu")]
-use crate::plan::{Plan, Proved};
+use crate::plan::Plan;
+use crate::plan::Shape;
 use crate::program::print::Printer;
 use crate::program::{InputId, Program, Real, Value};
+use crate::prove::Proved;
 use crate::show::Precision;
 
 /// Arguments of `umbrage eval`.

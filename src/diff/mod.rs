@@ -20,9 +20,10 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::kernel::columns::Entry;
 use crate::eval::{Batch, Columns, Interpreter, IntervalInterpreter, Results};
 use crate::gpu::{Gpu, Kernel, Language, Outputs};
-use crate::plan::{Plan, PlanOptions, Proved, Shape, Weights, is_unsuitable};
+use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::reachable;
 use crate::program::{Domain, Program};
+use crate::prove::{Proved, is_unsuitable};
 use crate::show::{Precision, sentence};
 
 pub use crate::points::comparison::{Effort, Point, Points};
@@ -307,7 +308,7 @@ impl Leeway {
             true => 0.0,
             false => least.max(2.0 * proof.rounding.unwrap_or(0.0)),
         };
-        Self { other_case: !plan.shape.reports_case(), assumed: plan.assumed, slack }
+        Self { other_case: !plan.reports_case(), assumed: plan.assumed, slack }
     }
 }
 

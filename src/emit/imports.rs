@@ -4,10 +4,9 @@
 //! it is expected in a module of the host with a fixed name.
 
 use super::Target;
-use super::kernel::columns::reads_lookup;
 use super::language::Prefix;
 use super::names::fetches;
-use crate::plan::Proved;
+use crate::prove::Proved;
 
 /// The first lines of a module; empty for WGSL that is none.
 pub(super) fn head(plans: &[Proved<'_>], target: Target) -> String {
@@ -37,7 +36,7 @@ fn supplied(proved: &Proved<'_>) -> Vec<String> {
         names.push(prefix.site());
     }
     names.extend(fetches.iter().map(|(ident, _)| format!("{}_fetch_{ident}", prefix.lower)));
-    if reads_lookup(proved) {
+    if proved.plan().reads_lookup() {
         names.push(format!("{}_lookup", prefix.lower));
     }
     names

@@ -20,8 +20,8 @@ use host::Host;
 use language::wgsl::Wgsl;
 
 use crate::diag::Failure;
-use crate::plan::Proved;
 use crate::program::Output;
+use crate::prove::Proved;
 
 pub use host::Beside;
 pub use language::glsl::GlslVersion;

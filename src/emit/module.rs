@@ -14,8 +14,9 @@ use super::language::{Dialect, Prefix, Type};
 use super::names::{Names, fetches, input_type};
 use super::text::Text;
 use crate::diag::fnv1a;
-use crate::plan::{KeyLayout, Plan, Proved};
+use crate::plan::{KeyLayout, Plan};
 use crate::program::{BinaryOp, Domain, Levels, Node, Output, Program, UnaryOp};
+use crate::prove::Proved;
 
 /// Writes the module of a plan.
 pub(super) fn write(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
@@ -61,7 +62,7 @@ fn write_header(text: &mut Text, proved: &Proved<'_>, names: &Names) {
     text.comment(&format!("Table:  {}, {} cases", program.fingerprint(), program.rows.len()));
     text.comment(&format!("Inputs: {}", inputs(plan)));
     text.comment(&format!("Plan:   {}", plan.shape));
-    if let Some(weighed) = &plan.weighed {
+    if let Some(weighed) = &plan.weights_origin {
         text.comment(&format!("Weight: {weighed}"));
     }
     if let Some(certificate) = &plan.certificate {

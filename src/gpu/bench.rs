@@ -7,12 +7,13 @@ use super::kernel::{Names, fetched_words, plain_words};
 use super::pass::{Compute, Module};
 use super::timing::Stopwatch;
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::kernel::columns::{Entry, Layout, WORKGROUP, reads_lookup};
+use crate::emit::kernel::columns::{Entry, Layout, WORKGROUP};
 use crate::emit::kernel::timed::{wgsl_floor, wgsl_timed};
 use crate::emit::{lookup_words, wgsl_module};
 use crate::eval::Columns;
-use crate::plan::{KeyLayout, Proved};
+use crate::plan::KeyLayout;
 use crate::program::Program;
+use crate::prove::Proved;
 
 /// Columns of inputs that stay on the device, with room for the results.
 #[derive(Debug)]
@@ -74,7 +75,7 @@ impl Timed {
     /// # Errors
     /// When the source is refused; that would be a bug of the emitter or the driver.
     pub fn plan(gpu: &Gpu, proved: &Proved<'_>, rows_of_thread: u32) -> Result<Self, Failure> {
-        let lookup = reads_lookup(proved).then(|| lookup_words(proved.plan()));
+        let lookup = proved.plan().reads_lookup().then(|| lookup_words(proved.plan()));
         Self::new(gpu, proved.plan().program, &wgsl_timed(proved, rows_of_thread), lookup, rows_of_thread)
     }
 

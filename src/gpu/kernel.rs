@@ -5,13 +5,12 @@ use std::ops::Range;
 use super::Gpu;
 use super::pass::{Bound, Compute, Module, Resources};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::kernel::columns::{
-    COUNTS_PER_WORD, Entry, Layout, buffer_name, glsl_columns, reads_lookup, wgsl_columns,
-};
+use crate::emit::kernel::columns::{COUNTS_PER_WORD, Entry, Layout, buffer_name, glsl_columns, wgsl_columns};
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
 use crate::eval::Columns;
-use crate::plan::{KeyLayout, Proved};
+use crate::plan::KeyLayout;
 use crate::program::{Domain, InputId, InputSet, LevelKind, Program};
+use crate::prove::Proved;
 
 /// Most rows of one dispatch.
 const MAX_ROWS: usize = 1 << 18;
@@ -96,7 +95,7 @@ impl<'a, 'p> Kernel<'a, 'p> {
         let layout = Layout::new(program, entry);
         let module = Module::new(gpu, &program.name, module)?;
         let compute = module.compute(gpu, module.only_compute()?, &[])?;
-        let lookup = reads_lookup(proved).then(|| gpu.storage("lookup", &lookup_words(proved.plan())));
+        let lookup = proved.plan().reads_lookup().then(|| gpu.storage("lookup", &lookup_words(proved.plan())));
         gpu.check()?;
         let (key, names) = (proved.plan().key.clone(), Names::new(program));
         Ok(Self { gpu, program, key, entry, layout, module, compute, names, lookup })

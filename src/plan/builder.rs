@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use super::key::KeyLayout;
 use super::knowledge::Knowledge;
 use super::setting::Setting;
-use super::{Coefficients, Leaf, LookupPlace, Plan, Shape, Step, StepId};
+use super::{Coefficients, Leaf, Plan, Step, StepId};
 use crate::program::claims::Claims;
 use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
 
@@ -24,9 +24,6 @@ const MAX_DEPTH: usize = 400;
 const MAX_TAKEN_APART: usize = 2_000_000;
 /// What helps against too many ways.
 const SPLIT: &str = "split cases in which many lines or choices depend on fetched inputs";
-/// Most entries of a lookup in constants, and in a buffer.
-const MAX_CONSTANT_KEYS: u32 = 12;
-pub(super) const MAX_BUFFER_KEYS: u32 = 24;
 
 pub(super) type Result<T> = std::result::Result<T, String>;
 /// Rows that may be taken, with what is left of their guards.
@@ -83,109 +80,18 @@ impl<'a> Chain<'a> {
     }
 }
 
-/// The ordered chain of guards, as written.
-pub(super) fn ladder(program: &Program) -> Result<Plan<'_>> {
-    let mut builder = Builder::new(program);
-    let rows: Guarded = program.rows.iter().enumerate().map(|(i, row)| (i, row.guard)).collect();
-    let root = builder.rows(&rows, &Knowledge::none(program))?;
-    Ok(builder.finish(Shape::Ladder, KeyLayout::new(program)?, Vec::new(), root))
-}
-
-/// The packed key selects the case, or the few that conditions on continuous
-/// and fetched inputs still have to decide between.
-pub(super) fn switch<'p>(setting: &Setting<'p, '_>, shape: Shape) -> Result<Plan<'p>> {
-    let program = setting.program;
-    let key = KeyLayout::new(program)?;
-    let limit = match shape {
-        Shape::Switch(LookupPlace::Buffer) => MAX_BUFFER_KEYS,
-        _ => MAX_CONSTANT_KEYS,
-    };
-    if key.bits() > limit {
-        return Err(format!(
-            "its key has {} bits, and the lookup of this plan has room for {limit}; {}",
-            key.bits(),
-            if limit == MAX_CONSTANT_KEYS { "use `switch_buffer` or `ladder`" } else { "use `ladder`" }
-        ));
-    }
-    let mut builder = Builder::new(program);
-    let arms = Arms::new(&mut builder, setting)?;
-    let steps = arms.steps(&mut builder)?;
-    // States that do not occur go where most go.
-    let lookup = arms.of_state(setting).into_iter().map(|arm| arm.unwrap_or_default()).collect();
-    let root = builder.push(Step::Switch { arms: steps })?;
-    Ok(builder.finish(shape, key, lookup, root))
-}
-
-/// The ways to go that the state decides.
-pub(super) struct Arms {
-    /// Each way, with the levels that occur on it.
-    ways: Vec<(Guarded, Vec<LevelSet>)>,
-    /// The way of each state of the setting.
-    pub(super) of: Vec<u16>,
-}
-
-impl Arms {
-    pub(super) fn new(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Result<Self> {
-        let program = setting.program;
-        let claims = setting.claims()?;
-        let mut arms = Self { ways: Vec::new(), of: Vec::with_capacity(setting.states.len()) };
-        let mut index: HashMap<Guarded, u16> = HashMap::new();
-        let mut levels = vec![0; program.inputs.len()];
-        for state in &setting.states {
-            program.states.write(*state, &mut levels);
-            let rows = builder.rows_of_state(claims, *state, &levels);
-            let arm = match index.get(&rows) {
-                Some(arm) => *arm,
-                None => {
-                    let count = arms.ways.len();
-                    let arm = u16::try_from(count).map_err(|_| "it has more than 65535 ways to go".to_owned())?;
-                    index.insert(rows.clone(), arm);
-                    arms.ways.push((rows, vec![LevelSet(0); program.inputs.len()]));
-                    arm
-                }
-            };
-            for (input, _) in program.states.digits() {
-                arms.ways[usize::from(arm)].1[input.index()].0 |= LevelSet::one(levels[input.index()]).0;
-            }
-            arms.of.push(arm);
-        }
-        Ok(arms)
-    }
-
-    /// The steps of each way.
-    pub(super) fn steps(&self, builder: &mut Builder<'_>) -> Result<Vec<StepId>> {
-        let program = builder.program;
-        let mut steps = Vec::with_capacity(self.ways.len());
-        for (rows, hull) in &self.ways {
-            let mut known = Knowledge::none(program);
-            for (input, _) in program.states.digits() {
-                known.restrict(*input, hull[input.index()]);
-            }
-            steps.push(builder.rows(rows, &known)?);
-        }
-        Ok(steps)
-    }
-
-    /// The way of every state of the program.
-    fn of_state(&self, setting: &Setting<'_, '_>) -> Vec<Option<u16>> {
-        let mut of = vec![None; setting.program.states.count()];
-        setting.states.iter().zip(&self.of).for_each(|(state, arm)| of[*state] = Some(*arm));
-        of
-    }
-}
-
 impl<'p> Builder<'p> {
     pub(super) fn new(program: &'p Program) -> Self {
         Self { program, pool: program.pool.clone(), steps: Vec::new(), index: HashMap::new(), depth: 0, taken_apart: 0 }
     }
 
-    pub(super) fn finish(self, shape: Shape, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
+    pub(super) fn finish(self, setting: &Setting<'p, '_>, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
         Plan {
             program: self.program,
-            shape,
-            assumed: false,
-            weighed: None,
-            inputs: 0,
+            shape: setting.shape,
+            assumed: setting.assume,
+            weights_origin: setting.weights.map(|weights| weights.origin().to_owned()),
+            inputs: setting.inputs,
             certificate: None,
             notes: Vec::new(),
             pool: self.pool,

@@ -2,6 +2,9 @@
 
 use crate::program::{InputId, LevelSet, Program};
 
+/// Most bits of a key whose lookup lies in a buffer.
+pub(super) const MAX_BUFFER_BITS: u32 = 24;
+
 /// Where each discrete input sits in the key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyLayout {
@@ -54,6 +57,14 @@ impl KeyLayout {
     /// Bits in use.
     pub fn bits(&self) -> u32 {
         self.bits
+    }
+
+    /// Refuses a key that has more bits than a lookup has room for; `advice` says what to use instead.
+    pub(super) fn fits(&self, limit: u32, advice: &str) -> Result<(), String> {
+        if self.bits <= limit {
+            return Ok(());
+        }
+        Err(format!("its key has {} bits, and the lookup of this plan has room for {limit}; {advice}", self.bits))
     }
 
     /// The key of a state.

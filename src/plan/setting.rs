@@ -1,21 +1,26 @@
 //! What a plan is made for: the states that count, and how much each does.
 
-use super::{PlanOptions, Weights};
+use super::{PlanOptions, Shape, Weights};
+use crate::diag::fnv1a;
 use crate::program::Program;
 use crate::program::claims::Claims;
 use crate::program::reachable;
 use crate::program::symbolic::{Machine, View};
 
-/// The program, its states, and their weights.
+/// The program, the shape asked for, the states, and their weights.
 pub(super) struct Setting<'p, 'w> {
     pub(super) program: &'p Program,
+    pub(super) shape: Shape,
     pub(super) weights: Option<&'w Weights>,
     /// The states in which the plan must be right, ascending.
     pub(super) states: Vec<usize>,
     /// The share of each of them.
     pub(super) shares: Vec<f64>,
+    /// Whether the plan may do anything where the assumptions do not hold.
+    pub(super) assume: bool,
+    /// A hash of everything that the plan is made from.
+    pub(super) inputs: u64,
     claims: Option<Claims>,
-    assume: bool,
 }
 
 impl<'p, 'w> Setting<'p, 'w> {
@@ -44,11 +49,13 @@ impl<'p, 'w> Setting<'p, 'w> {
         let shares = states.iter().map(|state| weight(state) / sum).collect();
         Ok(Self {
             program,
+            shape: options.shape,
             weights: options.weights,
             states,
             shares,
-            claims: Claims::new(program),
             assume: options.assume,
+            inputs: inputs(program, options),
+            claims: Claims::new(program),
         })
     }
 
@@ -68,4 +75,13 @@ impl<'p, 'w> Setting<'p, 'w> {
                 .to_owned()
         })
     }
+}
+
+/// A hash of everything that a plan is made from.
+fn inputs(program: &Program, options: &PlanOptions<'_>) -> u64 {
+    let texts = [&program.source].into_iter().chain(&program.imported).map(|source| source.fingerprint());
+    let weights = options.weights.into_iter().flat_map(|w| (0..w.count()).map(|state| w.of(state).to_bits()));
+    let origin = options.weights.map_or("", Weights::origin);
+    let options = format!("{} {} {} {origin}", env!("CARGO_PKG_VERSION"), options.shape, options.assume);
+    fnv1a(texts.chain(weights).flat_map(u64::to_le_bytes).chain(options.into_bytes()))
 }

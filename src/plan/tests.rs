@@ -7,7 +7,8 @@ use super::*;
 use crate::diag::Source;
 use crate::eval::Interpreter;
 use crate::points::random::Random;
-use crate::program::{Domain, InputSet, LevelTerm, Node, Real, Value};
+use crate::program::{Domain, ExprId, InputId, InputSet, LevelTerm, Node, Real, Value};
+use crate::prove::is_unsuitable;
 use crate::table::Table;
 
 fn pick<'a>(random: &mut Random, list: &[&'a str]) -> &'a str {
@@ -262,7 +263,7 @@ fn every_plan_of_random_tables_is_proved_and_right() {
                 let want = interpreter.evaluate(point).unwrap_or_else(|e| panic!("{e:?}"));
                 let (row, values, fetched) = executor.run(point);
                 let at = format!("{shape} at {point:?}\n{text}");
-                assert!(!shape.reports_case() || row == want.row, "{row:?}, not {:?}: {at}", want.row);
+                assert!(!plan.reports_case() || row == want.row, "{row:?}, not {:?}: {at}", want.row);
                 assert!(fetched.minus(want.fetched).is_empty(), "{at}");
                 let same = proved.proof().identical == proved.proof().paths;
                 let slack = if same { 0.0 } else { 1e-5 };
@@ -295,7 +296,7 @@ fn a_choice_that_fetches_is_decided_once() {
     {
         let value = format!("if {condition} {{ x }} else {{ y }}");
         let program = fetching(3, 2, |i, q| format!("x < {i} * y && q{q}"), &value);
-        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch(LookupPlace::Constants)] {
+        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch] {
             Plan::proved(&program, shape).unwrap_or_else(|e| panic!("{e}"));
         }
     }
@@ -308,7 +309,7 @@ fn many_guards_may_fetch() {
     for (cases, fetched) in [(40, 40), (300, 1), (300, 2)] {
         let guard = |i: usize, q: usize| format!("x < {i} * y && q{q}");
         let program = fetching(cases, fetched, guard, "x");
-        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch(LookupPlace::Constants)] {
+        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch] {
             let plan = Plan::new(&program, shape).unwrap_or_else(|e| panic!("{e}"));
             assert!(plan.steps.len() <= 12 * cases, "{shape} of {cases}: {} steps", plan.steps.len());
         }
@@ -331,7 +332,7 @@ pub(super) fn agrees(plan: &Plan<'_>, random: &mut Random) {
         let point = point(random, plan.program, state);
         let want = interpreter.evaluate(&point).unwrap_or_else(|e| panic!("{e:?}"));
         let (row, values, _) = executor.run(&point);
-        assert!(!plan.shape.reports_case() || row == want.row, "{} at {point:?}", plan.shape);
+        assert!(!plan.reports_case() || row == want.row, "{} at {point:?}", plan.shape);
         let near = values.iter().zip(&want.values).all(|(a, b)| (a - b).abs() <= 1e-5);
         assert!(near, "{} at {point:?}: {values:?}, not {:?}", plan.shape, want.values);
     }

@@ -69,8 +69,8 @@ pub(crate) struct Machine<'p> {
     pool: Pool,
     normaliser: Normaliser,
     levels: Vec<u8>,
-    /// Fetched inputs that were looked at.
-    looked_at: InputSet,
+    /// Inputs that were fetched.
+    fetched: InputSet,
     /// Fetched inputs that are not there, so that code finds the first level or the least number.
     absent: InputSet,
     choices: Vec<Choice>,
@@ -105,7 +105,7 @@ impl<'p> Machine<'p> {
             program,
             conditions: pool,
             pool: pool.clone(),
-            looked_at: InputSet::default(),
+            fetched: InputSet::default(),
             absent: InputSet::default(),
             normaliser: Normaliser::default(),
             levels: vec![0; program.inputs.len()],
@@ -136,9 +136,9 @@ impl<'p> Machine<'p> {
         false
     }
 
-    /// The fetched inputs that were looked at since the last call.
-    pub(crate) fn take_looked_at(&mut self) -> InputSet {
-        std::mem::take(&mut self.looked_at)
+    /// The inputs that were fetched since the last call.
+    pub(crate) fn take_fetched(&mut self) -> InputSet {
+        std::mem::take(&mut self.fetched)
     }
 
     /// Lets inputs be absent from here on, on this path or until told otherwise.
@@ -187,7 +187,7 @@ impl<'p> Machine<'p> {
         match self.program.levels(input) {
             Some(_) if self.absent.contains(input) => 0,
             Some(levels) if self.program.fetched.contains(input) => {
-                self.looked_at = self.looked_at.or(InputSet::one(input));
+                self.fetched = self.fetched.or(InputSet::one(input));
                 self.answer(Question::Level(input), LevelSet::all(levels.count()), None)
             }
             _ => self.levels[input.index()],
@@ -312,7 +312,7 @@ impl<'p> Machine<'p> {
         let facts = self.pool.expr_facts(expr);
         let absent = !facts.inputs.and(self.absent).is_empty();
         if view.symmetry.is_none() && view.result.is_none() && !facts.selects && !absent {
-            self.looked_at = self.looked_at.or(facts.inputs.and(self.program.fetched));
+            self.fetched = self.fetched.or(facts.inputs.and(self.program.fetched));
             return expr;
         }
         self.resolve_memo(expr, view, &mut HashMap::new())
@@ -331,7 +331,7 @@ impl<'p> Machine<'p> {
                     Some((_, image)) => self.resolve(*image, View::PLAIN),
                     None if self.absent.contains(input) => self.pool.number(self.program.inputs[input.index()].least()),
                     None => {
-                        self.looked_at = self.looked_at.or(InputSet::one(input).and(self.program.fetched));
+                        self.fetched = self.fetched.or(InputSet::one(input).and(self.program.fetched));
                         expr
                     }
                 }

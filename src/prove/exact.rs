@@ -1,4 +1,4 @@
-//! The gate that every plan passes: plan ≡ program, state by state, symbolically.
+//! The gate for plans that only branch: plan ≡ program, state by state, symbolically.
 //!
 //! For each state of the discrete inputs the program is run symbolically.
 //! Whatever the state does not decide (the level of a fetched input, a
@@ -13,144 +13,28 @@
 //!   have the same normal form over the reals (then the difference in `f32` is
 //!   bounded).
 //!
-//! The prover shares no code with the planner. It treats comparisons that look
-//! different as independent, which can refuse a right plan but never accept a
-//! wrong one.
+//! Comparisons that look different are treated as independent, which can refuse a
+//! right plan but never accept a wrong one.
 
 use std::collections::HashMap;
-use std::fmt;
 
-use super::{real, rounding, route};
-use crate::diag::{Diagnostic, Failure, codes};
+use super::report::{Counterexample, Proof, Refusal};
+use super::{rounding, route};
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::claims::{Candidates, Places};
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::reachable;
 use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
 
 /// Most paths of one state, and of all states together beyond the first of each.
-const MAX_PATHS_OF_STATE: usize = 1 << 16;
-const MAX_PATHS: usize = 1 << 18;
+pub(super) const MAX_PATHS_OF_STATE: usize = 1 << 16;
+pub(super) const MAX_PATHS: usize = 1 << 18;
 /// Most questions answered in one state, on all of its paths.
 const MAX_ANSWERS: usize = 1 << 22;
 
-/// What a proof found.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Proof {
-    /// Discrete states gone through.
-    pub states: usize,
-    /// Whether these are only the states in which the assumptions can hold.
-    pub assumed: bool,
-    /// Paths gone through: states, times the answers of fetches and comparisons.
-    pub paths: usize,
-    /// Paths on which the result is the same expression.
-    pub identical: usize,
-    /// Largest difference in `f32` on the other paths; `None` if no bound is known.
-    pub rounding: Option<f64>,
-}
-
-impl Proof {
-    /// What the proofs of two programs found together.
-    #[must_use]
-    pub fn and(self, other: Self) -> Self {
-        Self {
-            states: self.states + other.states,
-            assumed: self.assumed || other.assumed,
-            paths: self.paths + other.paths,
-            identical: self.identical + other.identical,
-            rounding: self.rounding.zip(other.rounding).map(|(a, b)| a.max(b)),
-        }
-    }
-}
-
-impl fmt::Display for Proof {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kind = if self.assumed { "states in which the assumptions can hold" } else { "states" };
-        write!(f, "equal to the table on {} {kind}, {} paths; ", self.states, self.paths)?;
-        if self.identical == self.paths {
-            return write!(f, "the same operations on each");
-        }
-        write!(f, "the same operations on {}, on the others equal over the reals", self.identical)?;
-        match self.rounding {
-            Some(bound) => write!(f, " and at most {bound:.1e} apart in f32"),
-            None => write!(f, " with no bound on the f32 difference"),
-        }
-    }
-}
-
-/// Why a plan is not proved.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Refusal {
-    /// It is not equal to its program.
-    Different(Box<Counterexample>),
-    /// There are too many paths to go through.
-    TooLong {
-        /// Which shape of plan.
-        shape: &'static str,
-        /// A state with many paths, in table notation.
-        state: Vec<String>,
-    },
-}
-
-impl Refusal {
-    /// The refusal as a diagnostic.
-    pub fn into_failure(self, program: &Program) -> Failure {
-        match self {
-            Refusal::Different(counterexample) => counterexample.into_failure(program),
-            Refusal::TooLong { shape, state } => {
-                let message = format!("the plan `{shape}` of `{}` has too many paths to be proved", program.name);
-                let diagnostic = Diagnostic::error(codes::PROOF_TOO_LONG, message)
-                    .help(format!(
-                        "a state may have {MAX_PATHS_OF_STATE} paths, and all states {MAX_PATHS} more than one each, fewer where they are long; each comparison of numbers and each fetch multiplies them"
-                    ))
-                    .help(format!("the limit was met in the state {}", state.join(", ")))
-                    .help("split cases with many comparisons or choices, or make a comparison an input of the table");
-                Failure::new(program.source.clone(), diagnostic)
-            }
-        }
-    }
-}
-
-/// Where a plan and its program differ.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Counterexample {
-    /// Which shape of plan.
-    pub shape: &'static str,
-    /// The state, the levels of fetched inputs, and the outcome of comparisons, in table notation.
-    pub state: Vec<String>,
-    /// What differs.
-    pub reason: String,
-    /// The row that the program takes, if any.
-    pub row: Option<usize>,
-}
-
-impl Counterexample {
-    /// The counterexample as a diagnostic at the row concerned.
-    pub fn into_failure(self, program: &Program) -> Failure {
-        let span = self.row.map_or(program.hit_policy_span, |row| program.rows[row].span);
-        let diagnostic =
-            Diagnostic::error(codes::NOT_PROVED, format!("the plan `{}` is not equal to the table", self.shape))
-                .at(span, self.reason)
-                .help(format!("in the state {}", self.state.join(", ")))
-                .help("nothing was emitted; please report this: a plan must never differ");
-        Failure::new(program.source.clone(), diagnostic)
-    }
-}
-
-/// Proves a plan.
-///
-/// # Errors
-/// With the first difference found.
-pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
-    if matches!(plan.step(plan.behind_fetches()), Step::Coefficients { .. } | Step::Orbit { .. }) {
-        return real::prove(plan);
-    }
+/// Proves a plan in some states.
+pub(super) fn prove(plan: &Plan<'_>, states: &[usize]) -> Result<Proof, Refusal> {
     let program = plan.program;
-    let states: Vec<usize> = match plan.assumed {
-        true => reachable(program),
-        false => (0..program.states.count()).collect(),
-    };
     let mut prover = Prover {
         plan,
         pool: plan.pool.clone(),
@@ -158,12 +42,12 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         oracle: Oracle::new(program),
         candidates: Candidates::new(program),
         absent: InputSet::default(),
-        starts: route::starts(plan, &states),
+        starts: route::starts(plan, states),
         identical: 0,
         paths: 0,
         rounding: Some(0.0),
     };
-    for (gone, state) in states.iter().enumerate() {
+    for (done, state) in states.iter().enumerate() {
         program.states.write(*state, &mut prover.oracle.levels);
         prover.oracle.restart();
         let before = prover.paths;
@@ -172,7 +56,7 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
             if !prover.oracle.advance() {
                 break;
             }
-            let paths = prover.paths - before >= MAX_PATHS_OF_STATE || prover.paths - gone > MAX_PATHS;
+            let paths = prover.paths - before >= MAX_PATHS_OF_STATE || prover.paths - done > MAX_PATHS;
             if paths || prover.oracle.answered > MAX_ANSWERS {
                 prover.oracle.restart();
                 return Err(Refusal::TooLong { shape: plan.shape.name(), state: prover.describe() });
@@ -188,7 +72,7 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
     })
 }
 
-/// Something that a state leaves open.
+/// A fact that a state leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Question {
     Level(InputId),

@@ -11,23 +11,18 @@
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
-use super::exact::{Counterexample, Proof, Refusal};
+use super::report::{Counterexample, Proof, Refusal};
 use super::rounding;
 use crate::plan::{Plan, Step, StepId};
 use crate::program::claims::Candidates;
 use crate::program::print::Printer;
-use crate::program::reachable;
 use crate::program::symbolic::{Machine, View};
 use crate::program::turn::Turn;
 use crate::program::{ExprId, InputSet};
 
-/// Proves a plan.
-pub(crate) fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
+/// Proves a plan in some states.
+pub(super) fn prove(plan: &Plan<'_>, states: &[usize]) -> Result<Proof, Refusal> {
     let program = plan.program;
-    let states: Vec<usize> = match plan.assumed {
-        true => reachable(program),
-        false => (0..program.states.count()).collect(),
-    };
     let mut machine = Machine::over(program, &plan.pool);
     let mut prover = Prover {
         plan,
@@ -36,7 +31,7 @@ pub(crate) fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
         compares: compares(plan),
         candidates: Candidates::new(program),
     };
-    for state in &states {
+    for state in states {
         let turn = match plan.step(plan.behind_fetches()) {
             Step::Orbit { .. } => {
                 let entry = usize::from(plan.lookup.get(*state).copied().unwrap_or_default());
@@ -104,14 +99,14 @@ impl Prover<'_, '_> {
                 return Ok(());
             }
         }
-        machine.take_looked_at();
+        machine.take_fetched();
         let (row, line, want) = machine.run_to_line(self.candidates.of(state));
-        let needed = machine.take_looked_at();
+        let needed = machine.take_fetched();
         let got = self.run(machine, state, turn);
         machine.set_absent(InputSet::default());
         let got = got.map_err(|reason| (row, reason))?;
         self.proof.paths += 1;
-        if self.plan.shape.reports_case() && (row, line) != (got.row, got.line) {
+        if self.plan.reports_case() && (row, line) != (got.row, got.line) {
             let name =
                 |row: Option<usize>| row.map_or("the default".to_owned(), |r| format!("case {}", program.rows[r].id));
             let reason = match row == got.row {

@@ -27,7 +27,7 @@ impl Bound {
 /// A bound of the difference between an expression's `f32` result and its exact
 /// value on the whole domain; `None` where this simple analysis knows none.
 /// The expression contains no selections.
-pub(crate) fn error(program: &Program, pool: &Pool, expr: ExprId) -> Option<f64> {
+pub(super) fn error(program: &Program, pool: &Pool, expr: ExprId) -> Option<f64> {
     bound(program, pool, expr, &mut HashMap::new()).map(|bound| bound.error)
 }
 

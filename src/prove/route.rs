@@ -1,8 +1,8 @@
 //! Where the paths of each state begin: behind the tests that the state alone decides.
 //!
 //! All states go through the plan together. A test costs no more than the
-//! states it takes away, so that a chain of ten thousand tests over as many
-//! states is no matter of a hundred million looks.
+//! states it takes away, so ten thousand tests over ten thousand states do not
+//! cost 10^8 checks.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::plan::{Plan, Step, StepId};
 use crate::program::claims::{Boxes, decide};
 
 /// For each of `states`, the first step that the state does not decide.
-pub(crate) fn starts(plan: &Plan<'_>, states: &[usize]) -> Vec<StepId> {
+pub(super) fn starts(plan: &Plan<'_>, states: &[usize]) -> Vec<StepId> {
     let program = plan.program;
     let mut router = Router {
         plan,

@@ -267,7 +267,7 @@ pub(super) fn rank_correlation(a: &[f64], b: &[f64]) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::diag::Source;
-    use crate::plan::{LookupPlace, Shape};
+    use crate::plan::Shape;
     use crate::program::Program;
     use crate::table::Table;
 
@@ -294,7 +294,7 @@ mod tests {
         assert_eq!(model.group([0, 0, 0]), 3.0);
         assert_eq!(model.group([0, 1]), 7.0);
         assert_eq!(model.group([2, 1, 0, 1]), 7.0);
-        let switch = Plan::new(&program, Shape::Switch(LookupPlace::Constants)).unwrap_or_else(|e| panic!("{e}"));
+        let switch = Plan::new(&program, Shape::Switch).unwrap_or_else(|e| panic!("{e}"));
         let mut model = Model::new(&switch);
         assert_eq!([0, 1, 2].map(|state| model.group([state])), [READ + 1.0, READ + 2.0, READ]);
         assert_eq!(model.group([0, 1]), READ + 3.0);

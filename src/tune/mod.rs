@@ -22,9 +22,10 @@ use crate::eval::Columns;
 use crate::gpu::Gpu;
 use crate::gpu::bench::{Timed, Workload};
 use crate::gpu::timing::{Clock, Protocol, Stopwatch, Times, interleaved};
-use crate::plan::{Plan, PlanOptions, Proved, Shape, Weights};
+use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::profile::Fitted;
 use crate::program::Program;
+use crate::prove::Proved;
 use crate::tuned::{Choice, Evidence};
 use estimate::rank_correlation;
 

@@ -6,7 +6,7 @@ use umbrage::build::find_tables;
 use umbrage::diag::Source;
 use umbrage::diff::{self, Effort, Options};
 use umbrage::gpu::{AdapterChoice, Gpu};
-use umbrage::plan::{LookupPlace, Shape};
+use umbrage::plan::Shape;
 use umbrage::program::Program;
 use umbrage::table::Table;
 
@@ -48,7 +48,7 @@ fn long_chains_take_the_right_case() {
     );
     let table = Table::parse(Source::new("many.ron", text)).unwrap_or_else(|error| panic!("{error}"));
     let program = Program::check(&table).unwrap_or_else(|error| panic!("{error}"));
-    let shapes = vec![Shape::Ladder, Shape::Switch(LookupPlace::Constants)];
+    let shapes = vec![Shape::Ladder, Shape::Switch];
     let options = Options { shapes, effort: Effort { grid: 2, random: 1, lines: 0 }, ..Options::default() };
     let report = diff::table(&program, &gpu, &options, |_| {}).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(report.states, Some(140));

@@ -29,7 +29,7 @@ fn shader(program: &Program) -> String {
 fn wesl_imports_the_module() {
     for name in ["smsr", "rsmss"] {
         let program = table(name);
-        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch(umbrage::plan::LookupPlace::Constants)] {
+        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch] {
             let mut resolver = VirtualResolver::new();
             let path = |text: &str| text.parse::<ModulePath>().unwrap();
             resolver.add_module(path(&format!("package::{name}")), module(&program, shape, Target::Wesl).into());
@@ -51,7 +51,7 @@ fn wesl_imports_the_module() {
 fn naga_oil_imports_the_module() {
     for name in ["smsr", "rsmss"] {
         let program = table(name);
-        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch(umbrage::plan::LookupPlace::Constants)] {
+        for shape in [Shape::Ladder, Shape::Ordered, Shape::Switch] {
             let mut composer = Composer::default();
             let mut add = |source: &str| {
                 let descriptor = ComposableModuleDescriptor { source, file_path: name, ..Default::default() };

@@ -6,7 +6,7 @@ use std::path::Path;
 use umbrage::build::{self, Options, Request};
 use umbrage::emit::Target;
 use umbrage::eval::Interpreter;
-use umbrage::plan::{LookupPlace, Shape};
+use umbrage::plan::Shape;
 use umbrage::program::{Domain, Program, Value};
 
 use crate::table;
@@ -38,9 +38,7 @@ fn rsmss_lookup(word: u32) -> u32 {
 #[test]
 fn the_generated_modules_are_up_to_date() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for (name, shape) in
-        [("smsr", Shape::Switch(LookupPlace::Constants)), ("rsmss", Shape::Switch(LookupPlace::Buffer))]
-    {
+    for (name, shape) in [("smsr", Shape::Switch), ("rsmss", Shape::SwitchBuffer)] {
         let options =
             Options { shapes: vec![shape], targets: vec![Target::RustWgpu], auto: false, ..Options::default() };
         let paths = vec![root.join(format!("../tables/{name}.ron"))];

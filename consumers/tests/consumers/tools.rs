@@ -7,8 +7,9 @@ use std::path::Path;
 use std::process::Command;
 
 use umbrage::emit::{self, GlslVersion, Target};
-use umbrage::plan::{LookupPlace, Plan, Proved, Shape};
+use umbrage::plan::{Plan, Shape};
 use umbrage::program::{Domain, LevelKind, Program};
+use umbrage::prove::Proved;
 
 use crate::{arguments, camel, table};
 
@@ -31,7 +32,7 @@ fn accepts(tool: &str, arguments: &[&str], file: &Path) {
 fn every_plan(test: impl Fn(&Proved<'_>, Shape)) {
     for name in ["smsr", "rsmss"] {
         let program = table(name);
-        for shape in [Shape::Ladder, Shape::Ordered, Shape::Nested, Shape::Switch(LookupPlace::Constants)] {
+        for shape in [Shape::Ladder, Shape::Ordered, Shape::Nested, Shape::Switch] {
             test(&Plan::proved(&program, shape).unwrap_or_else(|error| panic!("{error}")), shape);
         }
     }

@@ -7,12 +7,11 @@ use std::time::SystemTime;
 
 use umbrage::build::{self, Options, Request};
 use umbrage::emit::Target;
-use umbrage::plan::{LookupPlace, Shape};
+use umbrage::plan::Shape;
 use umbrage::technique::revectorise::Technique;
 
 /// The plans to choose from. The build script makes the same.
-pub(crate) const PLANS: [Shape; 5] =
-    [Shape::Ladder, Shape::Ordered, Shape::Gathered, Shape::Switch(LookupPlace::Constants), Shape::Tree];
+pub(crate) const PLANS: [Shape; 5] = [Shape::Ladder, Shape::Ordered, Shape::Gathered, Shape::Switch, Shape::Tree];
 
 /// The cases of the tables, by name, as the build script left them in Rust.
 mod built {

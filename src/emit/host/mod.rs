@@ -7,14 +7,14 @@
 
 pub(crate) mod wgpu;
 
-use super::kernel::columns::reads_lookup;
 use super::language::rust::Rust;
 use super::language::{Dialect, Prefix, Type};
 use super::names::{Names, fetches, input_type};
 use super::text::{Text, harmless};
 use super::{GlslVersion, Target, module};
-use crate::plan::{KeyLayout, Proved};
+use crate::plan::KeyLayout;
 use crate::program::{Domain, Input, LevelKind, Program};
+use crate::prove::Proved;
 
 /// What a Rust module offers besides functions. Each has all that the one before it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -278,7 +278,7 @@ impl Side<'_, '_> {
 
     /// Whether the shader reads a lookup.
     pub(super) fn has_lookup(&self) -> bool {
-        reads_lookup(self.proved)
+        self.proved.plan().reads_lookup()
     }
 }
 

@@ -13,8 +13,8 @@ use crate::emit::language::wgsl::Wgsl;
 use crate::emit::language::{Dialect, Prefix, Type};
 use crate::emit::module;
 use crate::emit::names::fetches;
-use crate::plan::Proved;
 use crate::program::{Domain, LevelKind, Output, Program};
+use crate::prove::Proved;
 
 /// Threads of a workgroup.
 pub const WORKGROUP: u32 = 64;
@@ -97,7 +97,7 @@ pub fn wgsl_library(proved: &Proved<'_>, library: &str) -> String {
         let _ =
             writeln!(out, "fn {}_fetch_{ident}(site: {}) -> {ty} {{ return {zero}; }}", prefix.lower, prefix.site());
     }
-    if reads_lookup(proved) {
+    if proved.plan().reads_lookup() {
         let _ = writeln!(out, "fn {}_lookup(word: u32) -> u32 {{ return 0u; }}", prefix.lower);
     }
     out
@@ -128,15 +128,10 @@ pub fn glsl_library(proved: &Proved<'_>, library: &str, version: GlslVersion) ->
         let ty = glsl.ty(ty, &prefix);
         let _ = writeln!(out, "{ty} {}_fetch_{ident}({} site) {{ return {zero}; }}", prefix.lower, prefix.site());
     }
-    if reads_lookup(proved) {
+    if proved.plan().reads_lookup() {
         let _ = writeln!(out, "uint {}_lookup(uint word) {{ return 0u; }}", prefix.lower);
     }
     out + library + "\nvoid main() {}\n"
-}
-
-/// Whether a plan reads a lookup that the host has to supply.
-pub fn reads_lookup(proved: &Proved<'_>) -> bool {
-    proved.plan().shape.reads_buffer()
 }
 
 /// A complete WGSL compute shader that runs the table over columns.
@@ -151,7 +146,7 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
         out += "@group(0) @binding(1) var<storage, read> $fetched: array<u32>;\n";
     }
     out += "@group(0) @binding(2) var<storage, read_write> $out: array<u32>;\n";
-    if reads_lookup(proved) {
+    if proved.plan().reads_lookup() {
         out += "@group(0) @binding(3) var<storage, read> $lookup: array<u32>;\n\n";
         let _ = writeln!(out, "fn {}_lookup(word: u32) -> u32 {{ return $lookup[word]; }}", prefix.lower);
     }
@@ -212,7 +207,7 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
         buffer(&mut out, 1, "readonly ", "$fetched");
     }
     buffer(&mut out, 2, "", "$out");
-    if reads_lookup(proved) {
+    if proved.plan().reads_lookup() {
         buffer(&mut out, 3, "readonly ", "$lookup");
         let _ = writeln!(out, "uint {}_lookup(uint word) {{ return $lookup[word]; }}", prefix.lower);
     }

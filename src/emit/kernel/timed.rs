@@ -14,13 +14,13 @@
 
 use std::fmt::Write;
 
-use super::columns::{Entry, Layout, WORKGROUP, name_buffers, reads_lookup, value_words};
+use super::columns::{Entry, Layout, WORKGROUP, name_buffers, value_words};
 use crate::emit::language::wgsl::Wgsl;
 use crate::emit::language::{Dialect, Prefix, Type};
 use crate::emit::module;
 use crate::emit::names::fetches;
-use crate::plan::Proved;
 use crate::program::{Domain, Program};
+use crate::prove::Proved;
 
 /// The shader that evaluates a plan once per row, a thread so many of them.
 pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
@@ -29,7 +29,7 @@ pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
     let layout = Layout::new(program, Entry::Key);
     let fetches = fetches(program);
     let mut out = buffers(program);
-    if reads_lookup(proved) {
+    if proved.plan().reads_lookup() {
         out += "@group(0) @binding(3) var<storage, read> $lookup: array<u32>;\n";
         let _ = writeln!(out, "fn {}_lookup(word: u32) -> u32 {{ return $lookup[word]; }}", prefix.lower);
     }

@@ -5,46 +5,63 @@
 //! the case would. A guard that fetches also stays behind all that stand before
 //! it, so that nothing is fetched that the table would not.
 
+use super::Definition;
 use crate::plan::builder::{Builder, Guarded, Result};
 use crate::plan::key::KeyLayout;
 use crate::plan::knowledge::Knowledge;
 use crate::plan::order::{Certificate, Tests};
 use crate::plan::setting::Setting;
-use crate::plan::{Plan, Shape, StepId};
+use crate::plan::{Plan, StepId};
 use crate::program::claims::decide;
 use crate::program::{CondId, LevelKind, LevelSet, Pool, Program};
 
+pub(super) static ORDERED: Definition = Definition {
+    name: "ordered",
+    summary: "the chain of guards in the best order that keeps the meaning",
+    reads_buffer: false,
+    needs_key: false,
+    plan: ordered,
+};
+
+pub(super) static NESTED: Definition = Definition {
+    name: "nested",
+    summary: "a few tests that decide many guards, then chains in the best order: the published advice",
+    reads_buffer: false,
+    needs_key: false,
+    plan: nested,
+};
+
 /// Tests before the chains of a nested plan.
-pub(in crate::plan) const NESTED: usize = 2;
+pub(super) const FIRST_TESTS: usize = 2;
 
 /// The guards, in the best order.
-pub(in crate::plan) fn ordered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
+fn ordered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     let mut builder = Builder::new(program);
     let everywhere: Vec<usize> = (0..setting.states.len()).collect();
     let chain = Chain::new(&mut builder.pool, setting, &everywhere, &Knowledge::none(program))?;
     let root = builder.rows(&chain.rows, &Knowledge::none(program))?;
-    let mut plan = builder.finish(Shape::Ordered, KeyLayout::new(program)?, Vec::new(), root);
+    let mut plan = builder.finish(setting, KeyLayout::new(program)?, Vec::new(), root);
     plan.certificate = Some(Certificate { written: written(setting)?, planned: chain.cost, bound: chain.bound });
     Ok(plan)
 }
 
 /// What the guards cost in the order written.
-pub(in crate::plan) fn written(setting: &Setting<'_, '_>) -> Result<f64> {
+pub(super) fn written(setting: &Setting<'_, '_>) -> Result<f64> {
     let everywhere: Vec<usize> = (0..setting.states.len()).collect();
     let (tests, rows) = tests(setting, &everywhere)?;
     Ok(tests.cost(&(0..rows.len()).collect::<Vec<_>>()))
 }
 
 /// The tests that decide most guards first, then the guards that are left, in the best order.
-pub(in crate::plan) fn nested<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
+fn nested<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     let mut builder = Builder::new(program);
     let everywhere: Vec<usize> = (0..setting.states.len()).collect();
     let mut certificate = Certificate { written: written(setting)?, planned: 0.0, bound: 0.0 };
     let known = Knowledge::none(program);
-    let root = nest(&mut builder, setting, &everywhere, &known, NESTED, &mut certificate)?;
-    let mut plan = builder.finish(Shape::Nested, KeyLayout::new(program)?, Vec::new(), root);
+    let root = nest(&mut builder, setting, &everywhere, &known, FIRST_TESTS, &mut certificate)?;
+    let mut plan = builder.finish(setting, KeyLayout::new(program)?, Vec::new(), root);
     plan.certificate = Some(certificate);
     Ok(plan)
 }
@@ -105,7 +122,7 @@ fn tests(setting: &Setting<'_, '_>, states: &[usize]) -> Result<(Tests, Vec<usiz
 }
 
 /// Tests that decide most, so many of them one below the other, then chains.
-pub(in crate::plan) fn nest(
+pub(super) fn nest(
     builder: &mut Builder<'_>,
     setting: &Setting<'_, '_>,
     states: &[usize],
@@ -203,6 +220,7 @@ fn candidates(program: &Program, pool: &mut Pool) -> Vec<CondId> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Shape;
     use crate::plan::Weights;
     use crate::program::print::Printer;
 

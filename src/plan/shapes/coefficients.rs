@@ -6,98 +6,32 @@
 
 use std::collections::HashMap;
 
-use crate::plan::builder::{Arms, Builder, MAX_BUFFER_KEYS, Result};
-use crate::plan::key::KeyLayout;
+use super::Definition;
+use crate::plan::arms::Arms;
+use crate::plan::builder::{Builder, Result};
+use crate::plan::key::{KeyLayout, MAX_BUFFER_BITS};
 use crate::plan::knowledge::Knowledge;
 use crate::plan::setting::Setting;
-use crate::plan::{Leaf, Plan, Shape, Step, StepId};
+use crate::plan::{Coefficients, Fit, Form, Leaf, Piece, Plan, Step, StepId};
 use crate::program::normal::{Affine, Normaliser, Rational, Term, rational};
-use crate::program::{BinaryOp, ExprId, InputId, LevelSet, Node, Pool, Program, TernaryOp};
+use crate::program::{ExprId, InputId, LevelSet, Node, Pool, Program, TernaryOp};
 
 /// Most sums of one value.
 const MAX_FORMS: usize = 4;
 
-/// The coefficients of a plan.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Coefficients {
-    /// The inputs that are multiplied, in the order in which the products are added.
-    pub inputs: Vec<InputId>,
-    /// How many sums a value is the minimum of.
-    pub width: usize,
-    /// The bounds that every value is clamped to.
-    pub clamp: Option<(f64, f64)>,
-    /// The sets of coefficients.
-    pub fits: Vec<Fit>,
-}
+pub(super) static SHAPE: Definition = Definition {
+    name: "coefficients",
+    summary: "the key selects coefficients of a minimum or maximum of sums, in a buffer; no branch",
+    reads_buffer: true,
+    needs_key: true,
+    plan,
+};
 
-/// A set of coefficients and the case that it is the value of.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
-    /// The row, as an index into [`Program::rows`](crate::program::Program::rows); `None` for the default.
-    pub row: Option<usize>,
-    /// The line of that row; `None` where the default gives the value.
-    pub line: Option<usize>,
-    /// One for each component of the output.
-    pub pieces: Vec<Piece>,
-}
-
-/// The coefficients of one component.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Piece {
-    /// 1, or -1 for the negative of the minimum, which is a maximum.
-    pub sign: f64,
-    /// The sums, [`Coefficients::width`] of them.
-    pub forms: Vec<Form>,
-}
-
-/// A sum.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Form {
-    /// What it begins with.
-    pub constant: f64,
-    /// The factor of each of [`Coefficients::inputs`].
-    pub factors: Vec<f64>,
-}
-
-impl Coefficients {
-    /// What the code computes for a piece, in the order in which it does.
-    pub(crate) fn value(&self, pool: &mut Pool, piece: &Piece) -> ExprId {
-        let mut least = None;
-        for form in &piece.forms {
-            let mut sum = pool.number(form.constant);
-            for (input, factor) in self.inputs.iter().zip(&form.factors) {
-                let (factor, input) = (pool.number(*factor), pool.input(*input));
-                let product = pool.binary(BinaryOp::Multiply, factor, input);
-                sum = pool.binary(BinaryOp::Add, sum, product);
-            }
-            least = Some(match least {
-                None => sum,
-                Some(least) => pool.binary(BinaryOp::Min, least, sum),
-            });
-        }
-        let sign = pool.number(piece.sign);
-        let least = least.unwrap_or(sign);
-        let value = pool.binary(BinaryOp::Multiply, sign, least);
-        match self.clamp {
-            None => value,
-            Some((lo, hi)) => {
-                let (lo, hi) = (pool.number(lo), pool.number(hi));
-                pool.ternary(TernaryOp::Clamp, value, lo, hi)
-            }
-        }
-    }
-}
-
-/// Coefficients where they can be had, the ways of a `switch` elsewhere.
-pub(in crate::plan) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
+/// Coefficients where they can be had, the arms of a `switch` elsewhere.
+fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     let key = KeyLayout::new(program)?;
-    if key.bits() > MAX_BUFFER_KEYS {
-        return Err(format!(
-            "its key has {} bits, and the lookup of this plan has room for {MAX_BUFFER_KEYS}; use `ladder`",
-            key.bits()
-        ));
-    }
+    key.fits(MAX_BUFFER_BITS, "use `ladder`")?;
     if program.output.is_integer() {
         return Err("its output is no number; use `switch` or `ladder`".to_owned());
     }
@@ -162,7 +96,7 @@ pub(in crate::plan) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let rest: Vec<StepId> = rest.into_iter().map(|arm| steps[usize::from(arm)]).collect();
     let branches = rest.len();
     let root = builder.push(Step::Coefficients { rest })?;
-    let mut plan = builder.finish(Shape::Coefficients, key, lookup, root);
+    let mut plan = builder.finish(setting, key, lookup, root);
     plan.notes.push(match branches {
         0 => format!("{} sets of coefficients, no branch", coefficients.fits.len()),
         _ => format!(
@@ -282,6 +216,7 @@ fn common_clamp(program: &Program) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Shape;
 
     #[test]
     fn most_of_rsmss_needs_no_branch() {

@@ -10,13 +10,14 @@
 
 use std::collections::HashMap;
 
-use super::chain;
-use crate::plan::builder::{Arms, Builder, Result};
+use super::{Definition, chain};
+use crate::plan::arms::Arms;
+use crate::plan::builder::{Builder, Result};
 use crate::plan::key::KeyLayout;
 use crate::plan::knowledge::Knowledge;
 use crate::plan::order::Certificate;
 use crate::plan::setting::Setting;
-use crate::plan::{Plan, Shape, Step, StepId};
+use crate::plan::{Plan, Step, StepId};
 use crate::program::claims::decide;
 use crate::program::{Cond, CondId, InputId, InputSet, LevelSet, Pool, Program};
 
@@ -26,8 +27,16 @@ const MAX_STEPS: usize = 2000;
 /// Most parts of the condition of one fetch.
 const MAX_PARTS: usize = 64;
 
+pub(super) static SHAPE: Definition = Definition {
+    name: "gathered",
+    summary: "every fetch at one place, then a few tests and chains as in `nested`",
+    reads_buffer: false,
+    needs_key: false,
+    plan: gathered,
+};
+
 /// The first tests and chains of `nested`, behind all fetches.
-pub(in crate::plan) fn gathered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
+fn gathered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     if program.fetched.is_empty() {
         return Err("it fetches nothing; use `nested`".to_owned());
@@ -37,9 +46,9 @@ pub(in crate::plan) fn gathered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p
     let everywhere: Vec<usize> = (0..setting.states.len()).collect();
     let known = Knowledge::none(program).with_fetched(program.fetched);
     let mut certificate = Certificate { written: chain::written(setting)?, planned: 0.0, bound: 0.0 };
-    let root = chain::nest(&mut builder, setting, &everywhere, &known, chain::NESTED, &mut certificate)?;
+    let root = chain::nest(&mut builder, setting, &everywhere, &known, chain::FIRST_TESTS, &mut certificate)?;
     let root = in_front(&mut builder, &needs, root)?;
-    let mut plan = builder.finish(Shape::Gathered, KeyLayout::new(program)?, Vec::new(), root);
+    let mut plan = builder.finish(setting, KeyLayout::new(program)?, Vec::new(), root);
     plan.certificate = Some(certificate);
     let fetched = needs.iter().filter(|(_, condition)| plan.pool.truth(*condition) != Some(false)).count();
     plan.notes.push(format!("{fetched} inputs are fetched, each at one place"));
@@ -50,7 +59,7 @@ pub(in crate::plan) fn gathered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p
 type Part = (CondId, Vec<usize>);
 
 /// The fetched inputs and when they are needed, each after those that its condition mentions.
-pub(in crate::plan) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Result<Vec<(InputId, CondId)>> {
+pub(super) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_>) -> Result<Vec<(InputId, CondId)>> {
     let program = setting.program;
     if setting.states.len() > MAX_STATES {
         return Err(format!(
@@ -111,11 +120,7 @@ pub(in crate::plan) fn needs(builder: &mut Builder<'_>, setting: &Setting<'_, '_
 }
 
 /// The fetches, then `next`.
-pub(in crate::plan) fn in_front(
-    builder: &mut Builder<'_>,
-    needs: &[(InputId, CondId)],
-    mut next: StepId,
-) -> Result<StepId> {
+pub(super) fn in_front(builder: &mut Builder<'_>, needs: &[(InputId, CondId)], mut next: StepId) -> Result<StepId> {
     for (input, condition) in needs.iter().rev() {
         // What is never needed has to be there only if it is mentioned.
         if builder.pool.truth(*condition) == Some(false) && !builder.mentions(*input) {

@@ -1,7 +1,115 @@
-//! The code shapes, one file each.
+//! The code shapes, one file each, and the one list of them.
+//!
+//! A shape made of the steps that there are is a new file here, which ends in a [`Definition`], and its
+//! line in the list below: names, reports, tests, documents and the proof go by that.
 
-pub(crate) mod chain;
-pub(crate) mod coefficients;
-pub(crate) mod gather;
-pub(crate) mod orbit;
-pub(crate) mod tree;
+mod chain;
+mod coefficients;
+mod gather;
+mod ladder;
+mod orbit;
+mod switch;
+mod tree;
+
+use std::fmt;
+
+use super::Plan;
+use super::builder::Result;
+use super::setting::Setting;
+
+/// A code shape, as its file declares it.
+pub(super) struct Definition {
+    /// The name on the command line and in file names.
+    name: &'static str,
+    /// What it does, in a line.
+    summary: &'static str,
+    /// Whether its code reads a buffer of the host, which holds the lookup.
+    reads_buffer: bool,
+    /// Whether it chooses by the key, so that it does not suit functions without discrete inputs.
+    needs_key: bool,
+    /// Plans a program.
+    plan: for<'p> fn(&Setting<'p, '_>) -> Result<Plan<'p>>,
+}
+
+/// Declares the shapes, in the order of reports.
+macro_rules! shapes {
+    ($($(#[$doc:meta])* $shape:ident = $definition:path,)*) => {
+        /// The code shapes that can be asked for.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Shape {
+            $($(#[$doc])* $shape,)*
+        }
+
+        impl Shape {
+            /// Every shape, in the order of reports.
+            pub const ALL: [Shape; [$(Shape::$shape),*].len()] = [$(Shape::$shape),*];
+
+            fn definition(self) -> &'static Definition {
+                match self {
+                    $(Shape::$shape => &$definition,)*
+                }
+            }
+        }
+    };
+}
+
+shapes! {
+    /// The chain of guards, as written.
+    Ladder = ladder::SHAPE,
+    /// The chain of guards in the best order.
+    Ordered = chain::ORDERED,
+    /// A few tests, then chains.
+    Nested = chain::NESTED,
+    /// All fetches first.
+    Gathered = gather::SHAPE,
+    /// A decision graph.
+    Tree = tree::SHAPE,
+    /// A lookup in constants, then a `switch`.
+    Switch = switch::CONSTANTS,
+    /// A lookup in a buffer, then a `switch`.
+    SwitchBuffer = switch::BUFFER,
+    /// Coefficients from a buffer.
+    Coefficients = coefficients::SHAPE,
+    /// Representatives of symmetric states.
+    Orbit = orbit::SHAPE,
+}
+
+impl Shape {
+    /// The name on the command line and in file names.
+    pub fn name(self) -> &'static str {
+        self.definition().name
+    }
+
+    /// What the code does, in a line.
+    pub fn summary(self) -> &'static str {
+        self.definition().summary
+    }
+
+    /// Returns whether its code reads a buffer of the host, which holds the lookup.
+    pub fn reads_buffer(self) -> bool {
+        self.definition().reads_buffer
+    }
+
+    /// The shape with a name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|shape| shape.name() == name)
+    }
+
+    /// Plans a program.
+    ///
+    /// # Errors
+    /// With the reason, where the shape does not suit the program.
+    pub(super) fn plan<'p>(self, setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
+        let definition = self.definition();
+        if definition.needs_key && setting.program.function.is_some() && setting.program.states.count() == 1 {
+            return Err("it has no discrete inputs to choose by; use `ladder`".to_owned());
+        }
+        (definition.plan)(setting)
+    }
+}
+
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -11,12 +11,12 @@
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 
-use super::gather;
-use crate::plan::builder::{Builder, MAX_BUFFER_KEYS, Result};
-use crate::plan::key::KeyLayout;
+use super::{Definition, gather};
+use crate::plan::builder::{Builder, Result};
+use crate::plan::key::{KeyLayout, MAX_BUFFER_BITS};
 use crate::plan::knowledge::Knowledge;
 use crate::plan::setting::Setting;
-use crate::plan::{Plan, Shape, Step, StepId};
+use crate::plan::{Plan, Step, StepId};
 use crate::program::symbolic::{Machine, View};
 use crate::program::turn;
 use crate::program::turn::Turn;
@@ -36,8 +36,16 @@ struct Way {
     target: usize,
 }
 
+pub(super) static SHAPE: Definition = Definition {
+    name: "orbit",
+    summary: "symmetries, from a buffer, turn the inputs into those of few cases, whose result is turned back",
+    reads_buffer: true,
+    needs_key: true,
+    plan,
+};
+
 /// Representatives of orbits.
-pub(in crate::plan) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
+fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     let symmetries: Vec<usize> =
         (0..program.symmetries.len()).filter(|index| turn::is_usable(program, &program.symmetries[*index])).collect();
@@ -54,12 +62,7 @@ pub(in crate::plan) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
         return Err(format!("it has {} states, this plan takes at most {MAX_STATES}", setting.states.len()));
     }
     let key = KeyLayout::new(program)?;
-    if key.bits() > MAX_BUFFER_KEYS {
-        return Err(format!(
-            "its key has {} bits, and the lookup of this plan has room for {MAX_BUFFER_KEYS}; use `ladder`",
-            key.bits()
-        ));
-    }
+    key.fits(MAX_BUFFER_BITS, "use `ladder`")?;
     let images = images(setting, &symmetries);
     let ways: HashMap<usize, Way> =
         setting.states.iter().map(|state| (*state, representative(*state, &images, symmetries.len()))).collect();
@@ -93,11 +96,11 @@ pub(in crate::plan) fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
         let entry = arm << symmetries.len() | way.word;
         lookup[*state] = u16::try_from(entry).map_err(|_| "it has too many ways to go".to_owned())?;
     }
-    let unused = fill(setting, &mut lookup, &mut Server::new(setting, &builder, &symmetries, &arms));
+    let unused = fill(setting, &mut lookup, &mut EntryCheck::new(setting, &builder, &symmetries, &arms));
     let count = arms.len();
     let root = builder.push(Step::Orbit { arms })?;
     let root = gather::in_front(&mut builder, &needs, root)?;
-    let mut plan = builder.finish(Shape::Orbit, key, lookup, root);
+    let mut plan = builder.finish(setting, key, lookup, root);
     plan.symmetries = symmetries;
     let before: std::collections::BTreeSet<StepId> = steps.values().copied().collect();
     plan.notes.push(format!(
@@ -138,16 +141,16 @@ fn has(machine: &mut Machine<'_>, setting: &Setting<'_, '_>, symmetry: &Symmetry
         if !setting.assumptions_hold(machine) {
             return ControlFlow::Continue(());
         }
-        machine.take_looked_at();
+        machine.take_fetched();
         let (_, mut values) = machine.run(View::PLAIN);
-        let needed = machine.take_looked_at();
+        let needed = machine.take_fetched();
         if let Some(map) = symmetry.result {
             for value in &mut values {
                 *value = machine.resolve(map, View { symmetry: None, result: Some(*value) });
             }
         }
         let (_, image_values) = machine.run(image);
-        let fetched = machine.take_looked_at();
+        let fetched = machine.take_fetched();
         // An image that fetches more is of no use even if its value is right.
         match fetched.minus(needed).is_empty() && machine.equal(&values, &image_values) {
             true => ControlFlow::Continue(()),
@@ -242,7 +245,7 @@ fn merged(
 }
 
 /// Tells whether an entry of the lookup serves a state.
-struct Server<'a, 's> {
+struct EntryCheck<'a, 's> {
     setting: &'a Setting<'s, 's>,
     builder: &'a Builder<'s>,
     symmetries: &'a [usize],
@@ -251,7 +254,7 @@ struct Server<'a, 's> {
     known: HashMap<(usize, u16), bool>,
 }
 
-impl<'a, 's> Server<'a, 's> {
+impl<'a, 's> EntryCheck<'a, 's> {
     fn new(
         setting: &'a Setting<'s, 's>,
         builder: &'a Builder<'s>,
@@ -293,7 +296,7 @@ impl<'a, 's> Server<'a, 's> {
 /// Lets the lookup say the same for all levels of an input wherever one entry
 /// serves all states that count, and returns the inputs that are then not
 /// looked at.
-fn fill(setting: &Setting<'_, '_>, lookup: &mut [u16], server: &mut Server<'_, '_>) -> Vec<InputId> {
+fn fill(setting: &Setting<'_, '_>, lookup: &mut [u16], check: &mut EntryCheck<'_, '_>) -> Vec<InputId> {
     let program = setting.program;
     let mut unused: Vec<InputId> = Vec::new();
     let mut levels = vec![0; program.inputs.len()];
@@ -313,7 +316,7 @@ fn fill(setting: &Setting<'_, '_>, lookup: &mut [u16], server: &mut Server<'_, '
             entries.dedup();
             let serves_all = |entry: &u16| {
                 let mut others = group.iter().filter(|state| lookup[**state] != *entry);
-                others.all(|state| server.serves(*state, *entry))
+                others.all(|state| check.serves(*state, *entry))
             };
             let Some(entry) = entries.into_iter().find(serves_all) else { break };
             chosen.insert(*key, entry);
@@ -337,6 +340,7 @@ fn fill(setting: &Setting<'_, '_>, lookup: &mut [u16], server: &mut Server<'_, '
 mod tests {
     use super::*;
     use crate::plan::PlanOptions;
+    use crate::plan::Shape;
     use crate::program::Program;
 
     fn notes(table: &str, assume: bool) -> Vec<String> {

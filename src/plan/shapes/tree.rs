@@ -15,11 +15,13 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-use crate::plan::builder::{Arms, Builder, Result};
+use super::Definition;
+use crate::plan::arms::Arms;
+use crate::plan::builder::{Builder, Result};
 use crate::plan::key::KeyLayout;
 use crate::plan::order::Certificate;
 use crate::plan::setting::Setting;
-use crate::plan::{Plan, Shape, Step, StepId};
+use crate::plan::{Plan, Step, StepId};
 use crate::program::claims::decide;
 use crate::program::{InputId, LevelSet};
 
@@ -28,8 +30,16 @@ const MAX_LOOKS: usize = 4_000_000;
 /// Most states of a table for a tree at all.
 const MAX_STATES: usize = 1 << 14;
 
-/// A graph of tests that ends where the way is clear.
-pub(in crate::plan) fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
+pub(super) static SHAPE: Definition = Definition {
+    name: "tree",
+    summary: "a graph of tests on inputs with the least expected number of them",
+    reads_buffer: false,
+    needs_key: false,
+    plan: tree,
+};
+
+/// A graph of tests that ends where the arm is clear.
+fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     if setting.states.len() > MAX_STATES {
         return Err(format!(
@@ -59,7 +69,7 @@ pub(in crate::plan) fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let root = planner.build(&all, exact, &mut made)?;
     let cost = made.cost;
     let bound = if exact { cost } else { planner.entropy(&all) };
-    let mut plan = builder.finish(Shape::Tree, key, Vec::new(), root);
+    let mut plan = builder.finish(setting, key, Vec::new(), root);
     plan.certificate = Some(Certificate { written: super::chain::written(setting)?, planned: cost, bound });
     plan.notes.extend(fetches.map(|cost| format!("expected cost of fetches {cost:.3}, the same in every tree")));
     Ok(plan)

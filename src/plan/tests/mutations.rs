@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::agrees;
+use crate::plan::Shape;
 use crate::plan::*;
-use crate::plan::{LookupPlace, Shape};
 use crate::points::random::Random;
 
 const TABLES: [&str; 2] = ["tables/smsr.ron", "tables/rsmss.ron"];
@@ -151,7 +151,7 @@ fn what_has_too_many_paths_is_not_proved() {
 #[test]
 fn a_wrong_lookup_is_refused() {
     let program = program(TABLES[1]);
-    let plan = Plan::new(&program, Shape::Switch(LookupPlace::Buffer)).unwrap_or_else(|e| panic!("{e}"));
+    let plan = Plan::new(&program, Shape::SwitchBuffer).unwrap_or_else(|e| panic!("{e}"));
     for state in [0, 1, 500, program.states.count() - 1] {
         let mut broken = plan.clone();
         broken.lookup[state] = (broken.lookup[state] + 1) % 20;

@@ -12,7 +12,7 @@ use super::source::{Output, Passes, Skeleton};
 use crate::diag::Failure;
 use crate::gpu::Gpu;
 use crate::gpu::timing::{Clock, Protocol, Stopwatch, Times, interleaved};
-use crate::plan::Proved;
+use crate::prove::Proved;
 use crate::technique::revectorise::{Settings, Technique};
 
 /// Pixels that go together on common GPUs: a block of this size.

@@ -24,7 +24,7 @@ pub use source::{Output, Passes, Reads, Skeleton, source};
 use super::{Receivers, Settings, ShadowMap, Technique, Visibility};
 use crate::diag::Failure;
 use crate::gpu::Gpu;
-use crate::plan::Proved;
+use crate::prove::Proved;
 
 /// The visibility of every pixel by a technique. `proved` is the plan of its table, if it has one.
 ///

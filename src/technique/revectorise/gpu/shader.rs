@@ -9,13 +9,13 @@ use glam::UVec2;
 use super::frame::GpuFrame;
 use super::source::{Output, Passes, Skeleton, passes, source};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::kernel::columns::reads_lookup;
 use crate::emit::{lookup_words, wgsl_module, wgsl_text};
 use crate::gpu::draw::{self, Canvas, DepthBuffer, DepthTest, Draw, Drawing, Triangles};
 use crate::gpu::pass::{self, Compute, Module, Resources, Work};
 use crate::gpu::timing::{Marks, Stopwatch};
 use crate::gpu::{Buffer, CommandEncoder, CompareFunction, Gpu, Texture, TextureFormat, TextureView, view};
-use crate::plan::{Plan, Proved};
+use crate::plan::Plan;
+use crate::prove::Proved;
 use crate::technique::revectorise::{Settings, Technique, Visibility};
 
 /// The start of `work` in compute_two.wgsl: no workgroups along x, one along y and z, no pixels.
@@ -137,7 +137,7 @@ impl<'g> Shader<'g> {
             Output::Compute | Output::Record | Output::Count => Pipeline::Compute(compute("visibility_pass")?),
         };
         let lookup = proved
-            .filter(|proved| reads_lookup(proved))
+            .filter(|proved| proved.plan().reads_lookup())
             .map(|proved| gpu.storage("lookup", &lookup_words(proved.plan())));
         gpu.check()?;
         let keys = proved.map_or_else(Keys::default, |proved| Keys::new(proved.plan()));

@@ -7,8 +7,8 @@ use std::fmt::Write;
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit;
-use crate::emit::kernel::columns::reads_lookup;
-use crate::plan::{Plan, Proved};
+use crate::plan::Plan;
+use crate::prove::Proved;
 use crate::technique::revectorise::Technique;
 
 const FRAME: &str = include_str!("wgsl/frame.wgsl");
@@ -128,7 +128,7 @@ pub fn source(
         }
         let name = &plan.program.name;
         // A lookup in constants is part of the module.
-        if reads_lookup(proved) {
+        if proved.plan().reads_lookup() {
             out.push_str("@group(0) @binding(5) var<storage, read> lookup_words: array<u32>;\n");
             let _ = writeln!(out, "fn {name}_lookup(word: u32) -> u32 {{ return lookup_words[word]; }}");
         }

@@ -1,0 +1,117 @@
+//! The findings of a proof, and of one that fails.
+
+use std::fmt;
+
+use super::exact::{MAX_PATHS, MAX_PATHS_OF_STATE};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::program::Program;
+
+/// The findings of a proof.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// Discrete states gone through.
+    pub states: usize,
+    /// Whether these are only the states in which the assumptions can hold.
+    pub assumed: bool,
+    /// Paths gone through: states, times the answers of fetches and comparisons.
+    pub paths: usize,
+    /// Paths on which the result is the same expression.
+    pub identical: usize,
+    /// Largest difference in `f32` on the other paths; `None` if no bound is known.
+    pub rounding: Option<f64>,
+}
+
+impl Proof {
+    /// The findings of the proofs of two programs together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            states: self.states + other.states,
+            assumed: self.assumed || other.assumed,
+            paths: self.paths + other.paths,
+            identical: self.identical + other.identical,
+            rounding: self.rounding.zip(other.rounding).map(|(a, b)| a.max(b)),
+        }
+    }
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = if self.assumed { "states in which the assumptions can hold" } else { "states" };
+        write!(f, "equal to the table on {} {kind}, {} paths; ", self.states, self.paths)?;
+        if self.identical == self.paths {
+            return write!(f, "the same operations on each");
+        }
+        write!(f, "the same operations on {}, on the others equal over the reals", self.identical)?;
+        match self.rounding {
+            Some(bound) => write!(f, " and at most {bound:.1e} apart in f32"),
+            None => write!(f, " with no bound on the f32 difference"),
+        }
+    }
+}
+
+/// A reason why a plan is not proved.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refusal {
+    /// It is not equal to its program.
+    Different(Box<Counterexample>),
+    /// There are too many paths to go through.
+    TooLong {
+        /// The shape of the plan.
+        shape: &'static str,
+        /// A state with many paths, in table notation.
+        state: Vec<String>,
+    },
+}
+
+impl Refusal {
+    /// The refusal as a diagnostic.
+    pub fn into_failure(self, program: &Program) -> Failure {
+        match self {
+            Refusal::Different(counterexample) => counterexample.into_failure(program),
+            Refusal::TooLong { shape, state } => {
+                let message = format!("the plan `{shape}` of `{}` has too many paths to be proved", program.name);
+                let diagnostic = Diagnostic::error(codes::PROOF_TOO_LONG, message)
+                    .help(format!(
+                        "a state may have {MAX_PATHS_OF_STATE} paths, and all states {MAX_PATHS} more than one each, fewer where they are long; each comparison of numbers and each fetch multiplies them"
+                    ))
+                    .help(format!("the limit was met in the state {}", state.join(", ")))
+                    .help("split cases with many comparisons or choices, or make a comparison an input of the table");
+                Failure::new(program.source.clone(), diagnostic)
+            }
+        }
+    }
+}
+
+/// A state and a path on which a plan and its program differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counterexample {
+    /// The shape of the plan.
+    pub shape: &'static str,
+    /// The state, the levels of fetched inputs, and the outcome of comparisons, in table notation.
+    pub state: Vec<String>,
+    /// The difference.
+    pub reason: String,
+    /// The row that the program takes, if any.
+    pub row: Option<usize>,
+}
+
+impl Counterexample {
+    /// The counterexample as a diagnostic at the row concerned.
+    pub fn into_failure(self, program: &Program) -> Failure {
+        let span = self.row.map_or(program.hit_policy_span, |row| program.rows[row].span);
+        let diagnostic =
+            Diagnostic::error(codes::NOT_PROVED, format!("the plan `{}` is not equal to the table", self.shape))
+                .at(span, self.reason)
+                .help(format!("in the state {}", self.state.join(", ")))
+                .help("nothing was emitted; please report this: a plan must never differ");
+        Failure::new(program.source.clone(), diagnostic)
+    }
+}
+
+/// Returns whether a plan was not made, or not proved, because it does not suit its
+/// table: another one may.
+pub fn is_unsuitable(failure: &Failure) -> bool {
+    let code = failure.diagnostics.first().map(|diagnostic| diagnostic.code);
+    code == Some(codes::NOT_APPLICABLE) || code == Some(codes::PROOF_TOO_LONG)
+}
