@@ -17,6 +17,7 @@ mod words;
 
 use crate::diag::{Diagnostic, Severity, codes};
 use crate::program::Program;
+use findings::{Analysis, Run};
 use sets::study::Study;
 
 pub use findings::accuracy::allowance;
@@ -24,29 +25,9 @@ pub use findings::coverage::{Coverage, Dead, coverage};
 pub use findings::examples::agrees;
 pub use findings::numbers::{Range, ranges};
 pub use findings::overlap::{Overlap, overlaps};
-pub use lints::{FINDINGS, Findings, Level, Levels};
+pub use lints::{Findings, LintLevel, LintLevels};
 #[cfg(feature = "precise")]
 pub use singular::{Singularity, domain_points, singularities};
-
-/// Analyses that look at a program as it is written.
-const PLAIN: &[fn(&Program) -> Vec<Diagnostic>] = &[
-    findings::examples::findings,
-    findings::accuracy::findings,
-    findings::unused::findings,
-    #[cfg(feature = "precise")]
-    singular::findings,
-];
-
-/// Analyses that look at all inputs at once.
-const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] = &[
-    findings::overlap::findings,
-    findings::coverage::findings,
-    findings::lines::findings,
-    findings::symmetry::findings,
-    findings::continuity::findings,
-    findings::numbers::findings,
-    findings::style::findings,
-];
 
 /// Everything that is questionable or worth knowing about a program, without
 /// what the table itself acknowledges.
@@ -54,52 +35,57 @@ const SYMBOLIC: &[fn(&mut Study<'_>) -> Vec<Diagnostic>] = &[
 /// An error contradicts the table's own declarations, a warning does not. A note
 /// is a fact worth knowing, and leaves the table clean.
 pub fn findings(program: &Program) -> Vec<Diagnostic> {
-    report(program, &Levels::default()).open
+    report(program, &LintLevels::default()).open
 }
 
 /// Every finding: those to be shown, at the levels asked for, and those that the table acknowledges.
 ///
 /// ```
-/// use umbrage::analyse::{Levels, report};
+/// use umbrage::analyse::{LintLevels, report};
 /// use umbrage::program::Program;
 ///
 /// let program = Program::read("tables/published/rsmss_as_printed.ron")?;
-/// let findings = report(&program, &Levels::default());
+/// let findings = report(&program, &LintLevels::default());
 /// let breaks_symmetry = |finding: &umbrage::diag::Diagnostic| finding.code.0 == "U0506";
 /// assert!(findings.open.iter().any(breaks_symmetry));
 /// # Ok::<(), umbrage::diag::Failure>(())
 /// ```
-pub fn report(program: &Program, levels: &Levels) -> Findings {
-    let mut found: Vec<Diagnostic> = PLAIN.iter().flat_map(|analysis| analysis(program)).collect();
-    // A function has no cases that could contradict each other, and `accuracy` and `singular` look at its numbers.
-    if program.function.is_none() {
-        found.extend(symbolic(program));
+pub fn report(program: &Program, levels: &LintLevels) -> Findings {
+    let mut found = Vec::new();
+    let mut study = None;
+    for Analysis { codes, run } in findings::ALL {
+        let more = match run {
+            Run::Program(run) => run(program),
+            // A function has no cases that could contradict each other, and `accuracy` and `singular` look at its numbers.
+            Run::Sets(_) if program.function.is_some() => continue,
+            Run::Sets(run) => {
+                let study = study.get_or_insert_with(|| Study::new(program));
+                let more = run(study);
+                if study.space.is_too_large() {
+                    found.push(not_analysed(program));
+                    break;
+                }
+                more
+            }
+        };
+        debug_assert!(
+            more.iter().all(|finding| codes.contains(&finding.code)),
+            "a code that the analysis does not name"
+        );
+        found.extend(more);
     }
-    drop_twice_said(&mut found);
+    drop_duplicates(&mut found);
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     lints::sort(program, found, levels)
 }
 
-fn symbolic(program: &Program) -> Vec<Diagnostic> {
-    let mut found = Vec::new();
-    let mut study = Study::new(program);
-    for analysis in SYMBOLIC {
-        let more = analysis(&mut study);
-        if study.space.is_too_large() {
-            found.push(not_analysed(program));
-            break;
-        }
-        found.extend(more);
-    }
-    found
-}
-
-/// Divisions by zero are looked at twice; what is said of their limits says more.
-fn drop_twice_said(found: &mut Vec<Diagnostic>) {
+/// Drops findings of `numbers` about a division by zero that `singular` reports, too:
+/// of the same place, it knows the limit as well.
+fn drop_duplicates(found: &mut Vec<Diagnostic>) {
     let limits = [codes::REMOVABLE, codes::POLE];
-    let places = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
-    let told: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(places).collect();
-    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !places(finding).is_some_and(|p| told.contains(&p)));
+    let place = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
+    let known: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(place).collect();
+    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !place(finding).is_some_and(|p| known.contains(&p)));
 }
 
 fn not_analysed(program: &Program) -> Diagnostic {
@@ -110,7 +96,7 @@ fn not_analysed(program: &Program) -> Diagnostic {
 }
 
 /// The findings without notes; empty for a clean program.
-pub fn problems(program: &Program, levels: &Levels) -> Vec<Diagnostic> {
+pub fn problems(program: &Program, levels: &LintLevels) -> Vec<Diagnostic> {
     let mut found = report(program, levels).open;
     found.retain(|finding| finding.severity != Severity::Note);
     found

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::{Artifact, Built, NamedProfile, Options, beside, find_tables, profile_of, programs, tuned_in, weigh};
-use crate::analyse::{self, Levels};
+use crate::analyse::{self, LintLevels};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::profile;
 use crate::program::Program;
@@ -31,7 +31,7 @@ pub struct Request {
     /// Of what was tuned, only what was chosen on this device.
     pub device: Option<String>,
     /// What becomes of findings.
-    pub levels: Levels,
+    pub levels: LintLevels,
 }
 
 /// What came of a run.
@@ -179,7 +179,7 @@ fn one(
     table: &Table,
     evidence: &Evidence<'_>,
     options: &mut Options,
-    levels: &Levels,
+    levels: &LintLevels,
     batch: &mut Batch,
 ) -> Result<(Vec<Program>, Built), Failure> {
     let (name, source) = (&table.name.value, table.source.clone());

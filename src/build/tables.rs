@@ -15,7 +15,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::{Batch, Options, Request, run, stamp, write};
-use crate::analyse::Level;
+use crate::analyse::LintLevel;
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::emit::{GlslVersion, Target};
 use crate::plan::Shape;
@@ -127,20 +127,20 @@ impl Tables {
 
     /// Shows findings of this code as warnings, whatever they are by themselves.
     pub fn warn(self, code: &str) -> Self {
-        self.level(code, Level::Warn)
+        self.level(code, LintLevel::Warn)
     }
 
     /// Fails if there are findings of this code.
     pub fn deny(self, code: &str) -> Self {
-        self.level(code, Level::Deny)
+        self.level(code, LintLevel::Deny)
     }
 
     /// Does not show findings of this code.
     pub fn allow(self, code: &str) -> Self {
-        self.level(code, Level::Allow)
+        self.level(code, LintLevel::Allow)
     }
 
-    fn level(mut self, code: &str, level: Level) -> Self {
+    fn level(mut self, code: &str, level: LintLevel) -> Self {
         if let Err(message) = self.request.levels.set(code, level) {
             self.problems.push(Failure::bare("", Diagnostic::error(codes::NOT_APPLICABLE, message)));
         }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::messages;
 use super::messages::{Format, Report, plural};
 use super::{Outcome, Result, levels};
-use crate::analyse::{self, Levels};
+use crate::analyse::{self, LintLevels};
 use crate::build;
 use crate::diag::{Failure, Severity};
 use crate::program::Program;
@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 /// Checks one table and says how that went. What is found in an exhibit is shown only if it was named.
-fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &Levels, walked: bool) -> Result<Outcome> {
+fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &LintLevels, walked: bool) -> Result<Outcome> {
     let programs = match Program::read_all(file) {
         Ok(programs) => programs,
         Err(failure) => {

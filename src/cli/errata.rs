@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &ErrataArguments) -> Result<Outcome> {
     }
     let mut sink = Sink::create(&arguments.output)?;
     let mut text = String::from(
-        "# Errata\n\nWritten by `umbrage errata`; a test keeps it current.\n\
+        "# Errata\n\nWritten by `cargo xtask errata`; a test keeps it current.\n\
          What the analyses of `umbrage check` find in published tables by themselves, and what they leave.\n\n",
     );
     for (printed, mended, _) in &pairs {

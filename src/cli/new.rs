@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(crate::format::format(&source).unwrap_or_else(|e| panic!("{e}")), source.text);
         let table = Table::parse(source).unwrap_or_else(|e| panic!("{e}"));
         let programs = Program::check_all(&table).unwrap_or_else(|e| panic!("{e}"));
-        let report = crate::analyse::report(&programs[0], &crate::analyse::Levels::default());
+        let report = crate::analyse::report(&programs[0], &crate::analyse::LintLevels::default());
         assert_eq!(report.open, []);
         let built = build::table(&programs[0], &build::Options::default()).unwrap_or_else(|e| panic!("{e}"));
         assert!(built.files.iter().any(|file| file.path.ends_with("paint/ordered.wgsl")));

@@ -1,7 +1,10 @@
-//! What a diagnostic code means, at length.
+//! Diagnostic codes at length.
 //!
 //! The texts are those of `docs/codes.md`, which is part of the program: there
-//! is one place to write them and one to read them.
+//! is one place to write them and one to read them. Their headings are those of
+//! the registry, [`codes::ALL`].
+
+use crate::diag::codes;
 
 const TEXTS: &str = include_str!("../../docs/codes.md");
 
@@ -10,7 +13,7 @@ const TEXTS: &str = include_str!("../../docs/codes.md");
 pub struct Entry {
     /// The code, such as `U0203`.
     pub code: &'static str,
-    /// What it means, in a line.
+    /// Its meaning in a line.
     pub meaning: &'static str,
     /// The explanation, in Markdown.
     pub text: &'static str,
@@ -18,19 +21,21 @@ pub struct Entry {
 
 /// The explanations of all codes, ascending.
 pub fn entries() -> impl Iterator<Item = Entry> {
-    TEXTS.split("\n## ").skip(1).filter_map(|section| {
-        let (heading, text) = section.split_once('\n')?;
-        let (code, meaning) = heading.split_once(": ")?;
-        Some(Entry { code, meaning, text: text.trim() })
-    })
+    codes::ALL.iter().filter_map(explained)
 }
 
 /// The explanation of a code; capitals do not matter.
 pub fn entry(code: &str) -> Option<Entry> {
-    entries().find(|entry| entry.code.eq_ignore_ascii_case(code))
+    codes::entry(code).and_then(explained)
 }
 
-/// Whether a word looks like a code.
+fn explained(entry: &'static codes::Entry) -> Option<Entry> {
+    let (_, rest) = TEXTS.split_once(&format!("\n## {}\n", entry.heading()))?;
+    let text = rest.split("\n## ").next().unwrap_or(rest).trim();
+    Some(Entry { code: entry.code.0, meaning: entry.meaning, text })
+}
+
+/// Returns whether a word looks like a code.
 pub fn is_code(word: &str) -> bool {
     word.strip_prefix(['U', 'u']).is_some_and(|digits| digits.len() == 4 && digits.bytes().all(|b| b.is_ascii_digit()))
 }
@@ -118,19 +123,17 @@ mod tests {
         assert!(count > 50, "{count} examples");
     }
 
-    /// Every code is explained, in order, in the words of the reference.
+    /// Every code is explained, in order, in the words of the registry.
     #[test]
     fn every_code_is_explained() {
-        let source = include_str!("../diag/mod.rs");
-        let declared: Vec<&str> = source.split("Code(\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
-        let explained: Vec<&str> = entries().map(|entry| entry.code).collect();
-        let mut sorted = declared.clone();
-        sorted.sort_unstable();
-        assert_eq!(explained, sorted, "each code in src/diag.rs has its section in docs/codes.md");
+        let headings: Vec<&str> = TEXTS.lines().filter_map(|line| line.strip_prefix("## ")).collect();
+        let registered: Vec<String> = codes::ALL.iter().map(codes::Entry::heading).collect();
+        assert_eq!(headings, registered, "the headings of docs/codes.md are those of src/diag/codes.rs");
         let reference = include_str!("../../docs/language.md");
+        let rows: Vec<&str> = reference.lines().filter(|line| line.starts_with("| U")).collect();
+        let registered = codes::ALL.iter().map(|entry| format!("| {} | {} |", entry.code, entry.meaning));
+        assert_eq!(rows, registered.collect::<Vec<_>>(), "the table in docs/language.md is that of src/diag/codes.rs");
         for entry in entries() {
-            let row = format!("| {} | {} |", entry.code, entry.meaning);
-            assert!(reference.contains(&row), "docs/language.md, chapter 8, has not the row {row}");
             assert!(entry.text.len() > 80, "{} says too little", entry.code);
         }
     }

@@ -8,7 +8,7 @@ mod matrix;
 
 use maud::{Markup, PreEscaped, html};
 
-use crate::analyse::{self, Levels};
+use crate::analyse::{self, LintLevels};
 use crate::atlas::text::{self, LineText};
 use crate::atlas::{self, Atlas};
 use crate::diag::{Diagnostic, Failure, Severity};
@@ -169,7 +169,7 @@ fn cases(program: &Program, shares: Option<&[f64]>) -> Markup {
 }
 
 fn findings(program: &Program) -> Markup {
-    let found = analyse::report(program, &Levels::default());
+    let found = analyse::report(program, &LintLevels::default());
     html! {
         @if found.open.is_empty() { p.good { "Nothing was found." } }
         @for finding in &found.open { (finding_of(program, finding)) }

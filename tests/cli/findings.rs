@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::support::Place;
-use umbrage::analyse::{self, Levels};
+use umbrage::analyse::{self, LintLevels};
 use umbrage::diag::Source;
 use umbrage::program::Program;
 use umbrage::table::Table;
@@ -256,10 +256,10 @@ fn program(source: &str, text: String) -> Program {
 
 /// Findings of a table that another one does not have, by code, with the first case that each points at.
 fn fresh(known: &Program, program: &Program) -> BTreeSet<(String, u32)> {
-    let old: Vec<_> = analyse::report(known, &Levels::default()).open;
+    let old: Vec<_> = analyse::report(known, &LintLevels::default()).open;
     let mut without = program.clone();
     without.examples.clear();
-    let found = analyse::report(&without, &Levels::default()).open;
+    let found = analyse::report(&without, &LintLevels::default()).open;
     let found = found.iter().filter(|f| !old.iter().any(|o| o.code == f.code && o.message == f.message));
     found
         .filter_map(|finding| {

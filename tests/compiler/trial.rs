@@ -15,7 +15,7 @@ fn the_report_on_errata_is_current() {
     ];
     let document = std::fs::read_to_string("docs/errata.md").unwrap();
     for section in now {
-        assert!(document.contains(section.trim_end()), "docs/errata.md is out of date: run the command that it names");
+        assert!(document.contains(section.trim_end()), "docs/errata.md is out of date: run `cargo xtask errata`");
     }
     let table = Table::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"));
     let tallies = trial::survey(&table, 60, 7, |_| {}).unwrap_or_else(|e| panic!("{e}"));

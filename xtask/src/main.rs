@@ -20,6 +20,7 @@ Usage: cargo xtask <task> [arguments]
   licences                       check the licences of all packages against deny.toml
   package                        build what would be published, from what would be in it
   bless                          rewrite generated/ and the snapshots from what the code does now
+  errata                         write docs/errata.md: what the analyses find in tables as printed
   bench [ARGS]                   run the benchmarks; ARGS go to `cargo bench`
 ";
 
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         "licences" => licences::check(include_str!("../../deny.toml")),
         "package" => package(&mut steps),
         "bless" => bless(&mut steps),
+        "errata" => errata(&mut steps),
         "bench" => bench(&mut steps, rest),
         "help" | "--help" | "-h" => {
             print!("{USAGE}");
@@ -172,6 +174,16 @@ fn bless(steps: &mut Steps) -> Result {
 
 /// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.
 /// None needs wgpu, so none builds it.
+/// What the analyses find in tables as they were printed, and how many seeded mistakes.
+fn errata(steps: &mut Steps) -> Result {
+    let mut command = cargo(&["run", "--release", "--features", "trial", "--", "errata"]);
+    for name in ["rsmss", "smsr"] {
+        command.args([format!("tables/published/{name}_as_printed.ron"), format!("tables/{name}.ron")]);
+    }
+    command.args(["--mistakes", "1002", "--output", "docs/errata.md"]);
+    steps.run("errata", command)
+}
+
 fn bench(steps: &mut Steps, arguments: &[String]) -> Result {
     let mut optimised = cargo(&["bench", "--package", "umbrage", "--no-default-features"]);
     optimised.args(arguments);

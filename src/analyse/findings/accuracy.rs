@@ -7,6 +7,7 @@
 //! rounding of the inputs can change, and of the scale half a unit in the last
 //! place, each times the claimed factor.
 
+use super::{Analysis, Run};
 use crate::diag::{Diagnostic, codes};
 use crate::eval::{Interpreter, Samples};
 use crate::program::{Accuracy, Function, InputId, Limit, Program, Value};
@@ -22,8 +23,12 @@ const HALF_UNIT: f64 = 1.0 / 16_777_216.0;
 const STEP: f64 = 1e-3;
 const CLOSE: f64 = 1e-4;
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::LIMIT_BROKEN, codes::BUDGET_EXCEEDED], run: Run::Program(findings) };
+
 /// Tries out what a function claims.
-pub(in crate::analyse) fn findings(program: &Program) -> Vec<Diagnostic> {
+fn findings(program: &Program) -> Vec<Diagnostic> {
     let Some(function) = &program.function else { return Vec::new() };
     let mut found: Vec<Diagnostic> =
         function.limits.iter().filter_map(|limit| check_limit(program, function, limit)).collect();

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 
+use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::{Space, View, Witness};
 use crate::analyse::sets::study::{Piece, Study};
@@ -27,8 +28,12 @@ struct Jump {
     values: [Vec<ExprId>; 2],
 }
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::JUMP, codes::NOT_ANALYSED], run: Run::Sets(findings) };
+
 /// Looks at every declaration of continuity.
-pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut found = Vec::new();
     for continuity in &program.continuity {

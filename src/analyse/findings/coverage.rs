@@ -5,6 +5,7 @@
 
 use std::collections::HashSet;
 
+use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::study::Study;
 use crate::analyse::words;
@@ -107,8 +108,12 @@ fn covering(study: &mut Study<'_>, row: usize, within: Set) -> Vec<usize> {
     found.into_iter().map(|(earlier, _)| earlier).collect()
 }
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::UNCOVERED, codes::DEAD_CASE, codes::NOT_REACHED], run: Run::Sets(findings) };
+
 /// The note on unclaimed states, and a warning for each case that is never taken.
-pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let dead = dead(study);
     // Without an order no case comes first, and one that says what another says may stand.

@@ -1,6 +1,7 @@
 //! U0501: examples that the table contradicts.
 
 use super::accuracy::allowance;
+use super::{Analysis, Run};
 use crate::diag::{Diagnostic, codes};
 use crate::eval::Interpreter;
 use crate::program::{Example, Program};
@@ -14,6 +15,10 @@ use crate::show::{Precision, sentence};
 pub fn agrees(expected: f64, got: f64) -> bool {
     (expected - got).abs() <= 1e-6 * expected.abs().max(1.0)
 }
+
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::EXAMPLE_FAILS], run: Run::Program(findings) };
 
 /// Runs every example with the interpreter.
 pub(in crate::analyse) fn findings(program: &Program) -> Vec<Diagnostic> {

@@ -1,5 +1,6 @@
 //! U0507, U0508, U0511: lines of a case: none applies, two do and differ, one never does.
 
+use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::{Piece, Study};
@@ -8,8 +9,12 @@ use crate::diag::{Diagnostic, codes};
 use crate::program::print::Printer;
 use crate::program::{CondId, ExprId, Node};
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::NO_LINE, codes::LINES_CROSS, codes::DEAD_LINE], run: Run::Sets(findings) };
+
 /// Looks at the lines of every case.
-pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for row in 0..study.program.rows.len() {
         let taken = study.space.sets.and(study.rows.taken[row], study.assumed);

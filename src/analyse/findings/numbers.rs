@@ -1,6 +1,7 @@
 //! U0513 to U0515: numbers: values that the clamp always cuts, operations that
 //! can leave the numbers, comparisons for equality.
 
+use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::study::{Piece, Study};
 use crate::analyse::values::point::Point;
@@ -71,8 +72,14 @@ fn clamp(study: &Study<'_>, value: ExprId) -> Option<(f64, f64)> {
     }
 }
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis = Analysis {
+    codes: &[codes::OUT_OF_RANGE, codes::NOT_A_NUMBER, codes::FLOAT_EQUALITY, codes::NOT_ANALYSED],
+    run: Run::Sets(findings),
+};
+
 /// Looks at every value and every comparison.
-pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found = beyond_the_clamp(study);
     found.extend(trouble(study));
     found.extend(equalities(study));

@@ -5,6 +5,7 @@
 //! matters is a note, with the conditions that would make it not matter. With
 //! `Unique` it is an error.
 
+use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::Space;
 use crate::analyse::sets::study::Study;
@@ -118,9 +119,13 @@ fn different(study: &mut Study<'_>, first: usize, second: usize, within: Set) ->
 /// Most pairs of overlapping cases for which disjoint guards are looked for.
 const MAX_PAIRS: usize = 2000;
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::NOT_UNIQUE, codes::ORDER_MATTERS], run: Run::Sets(findings) };
+
 /// For hit policy `Unique`, every pair with different values; else a note for
 /// each case that comes before others with different values.
-pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let unique = program.hit_policy == HitPolicy::Unique;
     let within = if unique { Set::ALL } else { study.assumed };

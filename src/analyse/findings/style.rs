@@ -3,13 +3,18 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::{Analysis, Run};
 use crate::analyse::sets::study::Study;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{CondId, ExprId, LevelKind, LevelSet, Program};
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::INEXACT, codes::MERGEABLE, codes::RENAMED], run: Run::Sets(findings) };
+
 /// Everything about style.
-pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found = mergeable(study);
     found.extend(inexact(study.program));
     found.extend(renamed(study.program));

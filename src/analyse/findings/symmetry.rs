@@ -8,6 +8,7 @@
 
 use std::collections::BTreeMap;
 
+use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::{Piece, Study};
@@ -38,9 +39,13 @@ struct Odd {
 /// Rows; `None` is the default.
 type Rows = Vec<Option<usize>>;
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::SYMMETRY_BROKEN, codes::SYMMETRY_ASSUMED], run: Run::Sets(findings) };
+
 /// A warning for each line that most of its images contradict, and for cases
 /// that contradict each other undecidedly; a note where only assumptions help.
-pub(in crate::analyse) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
+fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut odd: BTreeMap<Place, Odd> = BTreeMap::new();
     let mut torn: BTreeMap<(Rows, Rows), (Point, Vec<usize>)> = BTreeMap::new();

@@ -3,6 +3,7 @@
 //! An input that no result depends on still costs its place in the generated
 //! signature, and more often than not its name is a misprint's victim.
 
+use super::{Analysis, Run};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{InputSet, Program};
 
@@ -10,8 +11,12 @@ fn warning(kind: &str, name: &str, span: Span, label: &str) -> Diagnostic {
     Diagnostic::warning(codes::UNUSED_INPUT, format!("the {kind} `{name}` is never used")).at(span, label)
 }
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::UNUSED_INPUT], run: Run::Program(findings) };
+
 /// Looks for unused inputs, then for unused names, then for unused helpers.
-pub(in crate::analyse) fn findings(program: &Program) -> Vec<Diagnostic> {
+fn findings(program: &Program) -> Vec<Diagnostic> {
     let mut found = inputs(program);
     found.extend(names(program));
     found.extend(helpers(program));

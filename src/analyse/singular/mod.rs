@@ -22,6 +22,7 @@ mod zeros;
 
 use std::collections::BTreeMap;
 
+use super::findings::{Analysis, Run};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::eval::{Precise, Unknown};
 use crate::program::normal::Normaliser;
@@ -210,8 +211,12 @@ fn span(program: &Program, point: &[Value]) -> Option<Span> {
     Some(outcome.line.map_or(row.span, |line| row.lines[line].span))
 }
 
+/// The codes that are found here, and how.
+pub(in crate::analyse) const ANALYSIS: Analysis =
+    Analysis { codes: &[codes::REMOVABLE, codes::POLE, codes::CANCELS, codes::OVERFLOW], run: Run::Program(findings) };
+
 /// Everything that is wrong with the numbers of a program.
-pub(super) fn findings(program: &Program) -> Vec<Diagnostic> {
+fn findings(program: &Program) -> Vec<Diagnostic> {
     if program.output.is_integer() {
         return Vec::new();
     }

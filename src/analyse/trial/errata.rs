@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::mutate::{Mistake, Tally};
-use crate::analyse::lints::{Findings, Levels};
+use crate::analyse::lints::{Findings, LintLevels};
 use crate::diag::{Diagnostic, Severity};
 use crate::program::Program;
 
@@ -27,8 +27,10 @@ struct Found {
 
 /// The report on one table, in Markdown.
 pub fn errata(printed: &Program, mended: &Program) -> String {
-    let (before, after) =
-        (crate::analyse::report(printed, &Levels::default()), crate::analyse::report(mended, &Levels::default()));
+    let (before, after) = (
+        crate::analyse::report(printed, &LintLevels::default()),
+        crate::analyse::report(mended, &LintLevels::default()),
+    );
     let found = fresh(printed, &before, &after);
     let mut text = format!("## {}\n\n", mended.title);
     let _ = writeln!(

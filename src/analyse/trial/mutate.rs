@@ -2,7 +2,7 @@
 //! when a table is copied by hand, and how many of them the analyses notice
 //! without knowing the right table.
 
-use crate::analyse::lints::Levels;
+use crate::analyse::lints::LintLevels;
 use crate::analyse::sets::study::Study;
 use crate::analyse::values::point::Point;
 use crate::diag::{Diagnostic, Failure, Severity};
@@ -127,7 +127,7 @@ fn said(program: &Program) -> Vec<(Severity, String)> {
     let mut without = program.clone();
     without.examples.clear();
     let what = |finding: &Diagnostic| (finding.severity, format!("{} {}", finding.code, finding.message));
-    crate::analyse::report(&without, &Levels::default()).open.iter().map(what).collect()
+    crate::analyse::report(&without, &LintLevels::default()).open.iter().map(what).collect()
 }
 
 /// Points where the assumptions hold, some in each piece of the program.
