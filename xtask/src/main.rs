@@ -172,8 +172,6 @@ fn bless(steps: &mut Steps) -> Result {
     steps.run("snapshots", snapshots)
 }
 
-/// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.
-/// None needs wgpu, so none builds it.
 /// What the analyses find in tables as they were printed, and how many seeded mistakes.
 fn errata(steps: &mut Steps) -> Result {
     let mut command = cargo(&["run", "--release", "--features", "trial", "--", "errata"]);
@@ -184,6 +182,8 @@ fn errata(steps: &mut Steps) -> Result {
     steps.run("errata", command)
 }
 
+/// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.
+/// None needs wgpu, so none builds it.
 fn bench(steps: &mut Steps, arguments: &[String]) -> Result {
     let mut optimised = cargo(&["bench", "--package", "umbrage", "--no-default-features"]);
     optimised.args(arguments);
