@@ -10,6 +10,8 @@ pub mod plot;
 mod raster;
 #[cfg(feature = "render")]
 pub mod sheet;
+#[cfg(feature = "render")]
+pub mod srgb;
 
 pub use page::page;
 pub use raster::{data_uri, png, raster};

@@ -22,7 +22,7 @@ use crate::text::closest::nearest;
 use crate::text::file;
 
 pub use shapes::Shape;
-pub use shapes::solid::Triangle;
+pub use shapes::solid::{Form, Part, Triangle};
 
 /// Largest accepted scene file, in bytes.
 const MAX_BYTES: u64 = 16 << 20;
@@ -55,15 +55,25 @@ pub struct Object {
     pub casts: bool,
     /// Its surface, seen from both sides.
     pub triangles: Vec<Triangle>,
+    /// The exact forms of its surface, with the triangles that stand for each; in the order of the triangles.
+    pub parts: Vec<Part>,
+}
+
+impl Object {
+    /// Returns whether all of its surface has an exact form.
+    pub fn is_exact(&self) -> bool {
+        self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() == self.triangles.len()
+    }
 }
 
 /// The scenes that come with Umbrage, by name.
-const BUILT_IN: [(&str, &str); 7] = [
+const BUILT_IN: [(&str, &str); 8] = [
     ("fence", include_str!("../../scenes/fence.ron")),
     ("foliage", include_str!("../../scenes/foliage.ron")),
     ("lattice", include_str!("../../scenes/lattice.ron")),
     ("outdoor", include_str!("../../scenes/outdoor.ron")),
     ("slope", include_str!("../../scenes/slope.ron")),
+    ("studio", include_str!("../../scenes/studio.ron")),
     ("teapot", include_str!("../../scenes/teapot.ron")),
     ("text", include_str!("../../scenes/text.ron")),
 ];
@@ -119,6 +129,11 @@ impl Scene {
     /// All triangles, with the number of the object that each belongs to.
     pub fn triangles(&self) -> impl Iterator<Item = (usize, &Triangle)> {
         self.objects.iter().enumerate().flat_map(|(index, object)| object.triangles.iter().map(move |t| (index, t)))
+    }
+
+    /// Returns whether it has a light without extent.
+    pub fn has_punctual(&self) -> bool {
+        self.lights.iter().any(|light| light.punctual().is_some())
     }
 
     /// The first light without extent: the one that techniques on a shadow map take.

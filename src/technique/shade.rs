@@ -1,7 +1,7 @@
 //! Visibility → picture: diffuse surfaces under the scene's light.
 
 use glam::DVec3;
-use image::{Rgb, Rgb32FImage, RgbImage};
+use image::{Rgb, Rgb32FImage};
 
 use super::revectorise::stage::Stage;
 use crate::scene::surfaces::Surfaces;
@@ -26,35 +26,6 @@ pub fn shade(stage: &Stage<'_>, surfaces: &Surfaces, visibility: &[f32]) -> Rgb3
             }
         };
         *pixel = Rgb(colour.as_vec3().to_array());
-    }
-    image
-}
-
-/// Linear light → the values of an sRGB picture, 8 bits each.
-pub fn encode(linear: &Rgb32FImage) -> RgbImage {
-    let mut image = RgbImage::new(linear.width(), linear.height());
-    for (out, pixel) in image.pixels_mut().zip(linear.pixels()) {
-        *out = Rgb(pixel.0.map(srgb));
-    }
-    image
-}
-
-/// The sRGB transfer function.
-fn srgb(linear: f32) -> u8 {
-    let linear = linear.clamp(0.0, 1.0);
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * libm::powf(linear, 1.0 / 2.4) - 0.055 };
-    (encoded * 255.0).round() as u8
-}
-
-/// The values of an sRGB picture → linear light.
-pub fn decode(encoded: &RgbImage) -> Rgb32FImage {
-    let mut image = Rgb32FImage::new(encoded.width(), encoded.height());
-    let linear = |value: u8| {
-        let value = f32::from(value) / 255.0;
-        if value <= 0.040_45 { value / 12.92 } else { libm::powf((value + 0.055) / 1.055, 2.4) }
-    };
-    for (out, pixel) in image.pixels_mut().zip(encoded.pixels()) {
-        *out = Rgb(pixel.0.map(linear));
     }
     image
 }

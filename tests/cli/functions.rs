@@ -84,15 +84,20 @@ fn worked_examples_on_the_gpu() {
 #[test]
 fn light_on_the_gpu_is_that_of_the_interpreter() {
     use umbrage::gpu::{AdapterChoice, Gpu};
+    use umbrage::scene::Scene;
+    use umbrage::scene::rays::Rays;
+    use umbrage::scene::surfaces::Surfaces;
     use umbrage::technique::integrals::gpu::LightPipeline;
-    use umbrage::technique::integrals::{Scene, Settings, Tables, picture};
+    use umbrage::technique::integrals::{Settings, Surroundings, Tables, picture};
     let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
         assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
         return;
     };
-    let (scene, settings) = (Scene::example(), Settings::with_threshold(0.1));
+    let world = Scene::open("studio").unwrap();
+    let rays = Rays::exact(&world);
+    let (scene, settings) = (Surroundings::new(&world).unwrap(), Settings::with_threshold(0.1));
     let tables = Tables::new().unwrap();
-    let surfaces = picture::surfaces(&scene, 24, 14);
+    let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, 24, 14));
     let expected = picture::shade(&scene, &tables, &settings, &surfaces).unwrap();
     let got = LightPipeline::new(&gpu, &tables, &scene).unwrap().shade(&scene, &settings, &surfaces).unwrap();
     let (mut error, mut whole) = (0.0, 0.0);

@@ -21,7 +21,7 @@ const SMALL: &str = "--size 48x27 --shadow-map 64 --backend cpu";
 #[test]
 fn scenes_are_listed_one_a_line() {
     let said = Place::new().run("scenes");
-    assert_eq!(said.all(), "exit code: 0\nstdout:\nfence\nfoliage\nlattice\noutdoor\nslope\nteapot\ntext\n");
+    assert_eq!(said.all(), "exit code: 0\nstdout:\nfence\nfoliage\nlattice\noutdoor\nslope\nstudio\nteapot\ntext\n");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use image::RgbImage;
+use umbrage::picture::srgb;
 use umbrage::scene::Scene;
 use umbrage::technique::revectorise::cpu::{self, Frame};
 use umbrage::technique::revectorise::stage::{Bias, Stage};
@@ -86,7 +87,7 @@ fn pictures_are_those_of_the_reference() {
         let frame = Frame { map: &map, receivers: &receivers, settings: &Settings::default() };
         let program = cpu::table(technique).unwrap();
         let visibility = cpu::visibility(technique, program.as_ref(), frame, &|_| {}).unwrap();
-        let expected = shade::encode(&shade::shade(&stage, &picture, &visibility.value));
+        let expected = srgb::encode(&shade::shade(&stage, &picture, &visibility.value));
         let apart = differ(&seen, &expected);
         assert!(apart < 320 * 180 / 1000, "{}: {apart} pixels differ", scene.name);
     }

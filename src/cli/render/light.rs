@@ -16,10 +16,13 @@ use crate::diag::{Diagnostic, Failure, codes};
 #[cfg(feature = "gpu")]
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::picture::plot;
+use crate::scene::Scene;
+use crate::scene::rays::Rays;
+use crate::scene::surfaces::Surfaces;
 #[cfg(feature = "gpu")]
 use crate::technique::integrals::gpu::LightPipeline;
 use crate::technique::integrals::picture;
-use crate::technique::integrals::{Scene, Settings, Shaded, Surface, Tables};
+use crate::technique::integrals::{Settings, Shaded, Surface, Surroundings, Tables};
 
 /// Largest width and height of a picture.
 const MAX_SIDE: u32 = 4096;
@@ -45,6 +48,9 @@ pub(in crate::cli) struct Arguments {
     /// The picture, a PNG file
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// A scene that comes with Umbrage, or the file of one: balls and flat polygons under Gaussian lights
+    #[arg(long, value_name = "NAME|FILE", default_value = "studio")]
+    scene: String,
     /// Width and height of the picture
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "160x90", value_parser = size)]
     size: (u32, u32),
@@ -98,7 +104,7 @@ enum Executor<'t> {
 }
 
 impl Executor<'_> {
-    fn shade(&self, scene: &Scene, settings: &Settings, surfaces: &[Option<Surface>]) -> Result<Shaded> {
+    fn shade(&self, scene: &Surroundings, settings: &Settings, surfaces: &[Option<Surface>]) -> Result<Shaded> {
         match self {
             Executor::Interpreter(tables) => Ok(picture::shade(scene, tables, settings, surfaces)?),
             #[cfg(feature = "gpu")]
@@ -114,7 +120,9 @@ pub(in crate::cli) fn run(arguments: &Arguments, _report: &Report) -> Result<Out
     let cells_sink = arguments.cells.as_deref().map(Sink::create).transpose()?;
     let plot_sink = arguments.plot.as_deref().map(Sink::create).transpose()?;
 
-    let scene = Scene::example();
+    let world = Scene::open(&arguments.scene)?;
+    let scene = Surroundings::new(&world)?;
+    let rays = Rays::exact(&world);
     let tables = Tables::new()?;
     let mut say = String::new();
     #[cfg(feature = "gpu")]
@@ -139,13 +147,16 @@ pub(in crate::cli) fn run(arguments: &Arguments, _report: &Report) -> Result<Out
     let settings = Settings::with_threshold(arguments.threshold);
     let mut files: Vec<(Sink, Vec<u8>)> = Vec::new();
     let start = Instant::now();
-    let surfaces = picture::surfaces(&scene, width, height);
+    let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, width, height));
     let shaded = executor.shade(&scene, &settings, &surfaces)?;
     let seconds = start.elapsed().as_secs_f64();
     let (cells, edges) = means(&shaded);
     say += &format!("{width} x {height} pixels in {seconds:.2} s, {place}, threshold {}\n", arguments.threshold);
     say += &format!("per pixel that shows a surface: {cells:.1} cells, {edges:.1} edges\n");
-    files.push((picture_sink, png(&arguments.output, &picture::developed(width, height, &shaded.light))?));
+    files.push((
+        picture_sink,
+        png(&arguments.output, &picture::developed(width, height, &shaded.light, world.background))?,
+    ));
 
     if let (Some(path), Some(sink)) = (&arguments.reference, reference_sink) {
         let start = Instant::now();
@@ -156,7 +167,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, _report: &Report) -> Result<Out
             start.elapsed().as_secs_f64(),
             100.0 * difference(&shaded.light, &exact)
         );
-        files.push((sink, png(path, &picture::developed(width, height, &exact))?));
+        files.push((sink, png(path, &picture::developed(width, height, &exact, world.background))?));
     }
     if let (Some(path), Some(sink)) = (&arguments.cells, cells_sink) {
         let most = shaded.cells.iter().copied().max().unwrap_or(0);
@@ -164,7 +175,9 @@ pub(in crate::cli) fn run(arguments: &Arguments, _report: &Report) -> Result<Out
         files.push((sink, png(path, &picture::counted(width, height, &shaded.cells, most))?));
     }
     if let Some(sink) = plot_sink {
-        files.push((sink, trade_off(&scene, &executor)?.into_bytes()));
+        let (width, height) = PLOTTED;
+        let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, width, height));
+        files.push((sink, trade_off(&scene, &surfaces, &executor)?.into_bytes()));
     }
     for (mut sink, bytes) in files {
         sink.write_all(&bytes)?;
@@ -191,7 +204,7 @@ fn means(shaded: &Shaded) -> (f64, f64) {
     (sum(&shaded.cells), sum(&shaded.edges))
 }
 
-fn reference(scene: &Scene, surfaces: &[Option<Surface>], fineness: u32) -> Vec<Option<DVec3>> {
+fn reference(scene: &Surroundings, surfaces: &[Option<Surface>], fineness: u32) -> Vec<Option<DVec3>> {
     let directions = picture::directions(&scene.lobes, fineness);
     let light =
         |surface: &Option<Surface>| surface.as_ref().map(|surface| picture::brute_force(scene, surface, &directions));
@@ -207,13 +220,11 @@ fn difference(got: &[Option<DVec3>], exact: &[Option<DVec3>]) -> f64 {
 }
 
 /// Cells per pixel and the error of the picture, against the threshold.
-fn trade_off(scene: &Scene, executor: &Executor<'_>) -> Result<String> {
-    let (width, height) = PLOTTED;
-    let surfaces = picture::surfaces(scene, width, height);
-    let exact = reference(scene, &surfaces, PLOTTED_FINENESS);
+fn trade_off(scene: &Surroundings, surfaces: &[Option<Surface>], executor: &Executor<'_>) -> Result<String> {
+    let exact = reference(scene, surfaces, PLOTTED_FINENESS);
     let (mut cells, mut errors) = (Vec::new(), Vec::new());
     for threshold in THRESHOLDS.into_iter().rev() {
-        let shaded = executor.shade(scene, &Settings::with_threshold(threshold), &surfaces)?;
+        let shaded = executor.shade(scene, &Settings::with_threshold(threshold), surfaces)?;
         cells.push((threshold, means(&shaded).0));
         errors.push((threshold, 100.0 * difference(&shaded.light, &exact)));
     }

@@ -24,6 +24,7 @@ use crate::picture::compare;
 use crate::picture::compare::Region;
 use crate::picture::sheet;
 use crate::picture::sheet::{CaseCount, Entry};
+use crate::picture::srgb;
 use crate::program::Program;
 use crate::scene::Scene;
 use crate::scene::surfaces::Surfaces;
@@ -202,7 +203,7 @@ fn draw(
     let shaded = |answer: &Answer| shade::shade(stage, picture, &answer.visibility.value);
     let image = match (answers, program) {
         ([answer], Some(program)) if arguments.cases => {
-            Canvas::Encoded(sheet::cases(&shade::encode(&shaded(answer)), program, &answer.visibility)?)
+            Canvas::Encoded(sheet::cases(&srgb::encode(&shaded(answer)), program, &answer.visibility)?)
         }
         ([answer], _) if arguments.compare.is_empty() => Canvas::Linear(shaded(answer)),
         _ => {
@@ -215,7 +216,7 @@ fn draw(
                     let found = compare::difference(picture, value, &truth.visibility.value, &region);
                     label += &format!(", RMSE {:.4}", found.rmse);
                 }
-                Entry { label, picture: shade::encode(&shaded(answer)), value: value.clone() }
+                Entry { label, picture: srgb::encode(&shaded(answer)), value: value.clone() }
             };
             let entries: Vec<Entry> = answers.iter().map(entry).collect();
             let (width, height) = arguments.size;
@@ -238,8 +239,8 @@ impl Canvas {
         let mut bytes = Cursor::new(Vec::new());
         let written = match (format, self) {
             (ImageFormat::OpenExr, Canvas::Linear(image)) => image.write_to(&mut bytes, format),
-            (ImageFormat::OpenExr, Canvas::Encoded(image)) => shade::decode(&image).write_to(&mut bytes, format),
-            (_, Canvas::Linear(image)) => shade::encode(&image).write_to(&mut bytes, format),
+            (ImageFormat::OpenExr, Canvas::Encoded(image)) => srgb::decode(&image).write_to(&mut bytes, format),
+            (_, Canvas::Linear(image)) => srgb::encode(&image).write_to(&mut bytes, format),
             (_, Canvas::Encoded(image)) => image.write_to(&mut bytes, format),
         };
         written.map_err(|error| {

@@ -67,11 +67,14 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         let error = Diagnostic::error(codes::RENDER, message).help("name it *.svg or *.png");
         return Err(Failure::bare("", error).into());
     }
-    let names: Vec<&str> = match arguments.scenes.is_empty() {
-        true => Scene::names().collect(),
-        false => arguments.scenes.iter().map(String::as_str).collect(),
+    let open = |name: &str| Scene::open(name);
+    let scenes: std::result::Result<Vec<Scene>, Failure> = if arguments.scenes.is_empty() {
+        // Of the scenes that come with Umbrage, those with a light that has a shadow map.
+        Scene::names().map(open).filter(|scene| scene.as_ref().map_or(true, Scene::has_punctual)).collect()
+    } else {
+        arguments.scenes.iter().map(|name| open(name)).collect()
     };
-    let scenes = names.iter().map(|name| Scene::open(name)).collect::<std::result::Result<Vec<_>, Failure>>()?;
+    let scenes = scenes?;
     let json_sink = arguments.json.as_deref().map(Sink::create).transpose()?;
     let plot_sink = arguments.plot.as_deref().map(Sink::create).transpose()?;
     let executor = arguments.frame.executor(report)?;

@@ -17,7 +17,7 @@ use serde::Deserialize;
 use crate::diag::{Diagnostic, Source, codes};
 use crate::scene::shapes::Shape;
 use crate::scene::shapes::letters;
-use crate::scene::shapes::solid::Triangle;
+use crate::scene::shapes::solid::{Solid, Triangle};
 use crate::scene::view::Camera;
 use crate::scene::{Object, Scene, mesh};
 use crate::text::raw::{Raw, Reader};
@@ -117,6 +117,9 @@ enum ShapeRon<'a> {
         height: Raw<'a>,
         stroke: Raw<'a>,
     },
+    Polygon {
+        corners: Raw<'a>,
+    },
     Teapot {
         #[serde(default)]
         divisions: Option<Raw<'a>>,
@@ -132,6 +135,8 @@ enum ShapeRon<'a> {
 const FAR: f64 = 1e6;
 /// Smallest extent.
 const SMALL: f64 = 1e-6;
+/// Most corners of a polygon.
+const MAX_CORNERS: usize = 64;
 /// Most triangles of a scene.
 const MAX_TRIANGLES: usize = 20_000_000;
 
@@ -260,19 +265,22 @@ impl<'a> Read<'a> {
             }
         };
         let (shape, casts) = self.shape(ron.shape)?;
-        if shape.len() * count as usize > MAX_TRIANGLES {
+        if shape.triangles.len() * count as usize > MAX_TRIANGLES {
             return Err(self.wrong(raw, &format!("the object has more than {MAX_TRIANGLES} triangles")));
         }
         let turn = DQuat::from_euler(EulerRot::YXZ, y, x, z);
         let place = |index: u32| {
             DAffine3::from_scale_rotation_translation(DVec3::splat(scale), turn, at + step * f64::from(index))
         };
-        let moved = |index: u32| shape.iter().map(move |triangle| triangle.moved(&place(index)));
-        Ok(Object { colour, casts, triangles: (0..count).flat_map(moved).collect() })
+        let mut solid = Solid::default();
+        for index in 0..count {
+            solid.add(&shape, &place(index), scale);
+        }
+        Ok(Object { colour, casts, triangles: solid.triangles, parts: solid.parts })
     }
 
-    /// The triangles of a shape, and whether the shadow map is fitted to them.
-    fn shape(&self, raw: Raw<'a>) -> Result<(Vec<Triangle>, bool)> {
+    /// The surface of a shape, and whether the shadow map is fitted to it.
+    fn shape(&self, raw: Raw<'a>) -> Result<(Solid, bool)> {
         let shape = match self.reader.get(raw)? {
             ShapeRon::Ground { size } => Shape::Ground { size: self.pair(size)? },
             ShapeRon::Block { size } => Shape::Block { size: self.triple(size, SMALL, FAR)? },
@@ -308,15 +316,16 @@ impl<'a> Read<'a> {
                 }
                 Shape::Text { text, height: self.length(height)?, stroke: self.length(stroke)? }
             }
+            ShapeRon::Polygon { corners } => Shape::Polygon { corners: self.polygon(corners, MAX_CORNERS)? },
             ShapeRon::Teapot { divisions } => {
                 Shape::Teapot { divisions: self.or(divisions, 24, |raw| self.count(raw, 256))? }
             }
             ShapeRon::Mesh { file, size } => {
                 let size = size.map(|raw| self.length(raw)).transpose()?;
-                return Ok((self.mesh(file, size)?, true));
+                return Ok((Solid { triangles: self.mesh(file, size)?, parts: Vec::new() }, true));
             }
         };
-        Ok((shape.triangles(), shape.casts()))
+        Ok((shape.solid(), shape.casts()))
     }
 
     /// A mesh as it is, or standing around the origin with its largest extent scaled to a size.

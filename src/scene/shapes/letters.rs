@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::solid::{Triangle, bar};
+use super::solid::{Solid, bar};
 
 /// The strokes of a letter on a grid of 0 to 4 across and 0 to 6 up: polylines, each corner two digits.
 fn strokes(letter: char) -> Option<&'static [&'static str]> {
@@ -59,7 +59,7 @@ pub(in crate::scene) fn unknown(text: &str) -> Option<char> {
 }
 
 /// Writes a text, standing on y = 0 around the origin.
-pub(in crate::scene) fn write(out: &mut Vec<Triangle>, text: &str, height: f64, stroke: f64) {
+pub(in crate::scene) fn write(out: &mut Solid, text: &str, height: f64, stroke: f64) {
     let unit = height / 6.0;
     let advance = 4.0 * unit + 2.2 * stroke;
     let start = -(text.chars().count() as f64 * advance - 2.2 * stroke) / 2.0;
@@ -68,13 +68,13 @@ pub(in crate::scene) fn write(out: &mut Vec<Triangle>, text: &str, height: f64, 
         for line in strokes(letter).unwrap_or_default() {
             let digits: Vec<f64> = line.bytes().map(|digit| f64::from(digit - b'0')).collect();
             let corners: Vec<[f64; 2]> = digits.chunks_exact(2).map(|at| [left + at[0] * unit, at[1] * unit]).collect();
-            let mut bars = Vec::new();
+            let mut bars = Solid::default();
             for ends in corners.windows(2) {
                 bar(&mut bars, ends[0], ends[1], stroke, stroke);
             }
             // Strokes go half their width below the line.
             let lift = DAffine3::from_translation(DVec3::Y * stroke / 2.0);
-            out.extend(bars.iter().map(|triangle| triangle.moved(&lift)));
+            out.add(&bars, &lift, 1.0);
         }
     }
 }

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use glam::{DQuat, DVec3};
 
 use crate::points::random::Random;
-use crate::scene::shapes::solid::{Triangle, bar, block, quad, surface};
+use crate::scene::shapes::solid::{Form, Solid, Triangle, bar, block, polygon, surface};
 
 /// A shape that is computed rather than read from a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +76,11 @@ pub enum Shape {
         /// Width of a stroke.
         stroke: f64,
     },
+    /// A flat convex polygon, where its corners are.
+    Polygon {
+        /// At least three, one after the other around it.
+        corners: Vec<DVec3>,
+    },
     /// The Utah teapot, of its original size: about 6.4 long.
     Teapot {
         /// Subdivisions of each of its patches.
@@ -87,32 +92,36 @@ pub enum Shape {
 const ROUND: u32 = 96;
 
 impl Shape {
-    /// Its triangles.
-    pub(super) fn triangles(&self) -> Vec<Triangle> {
-        let mut out = Vec::new();
+    /// Its surface.
+    pub(super) fn solid(&self) -> Solid {
+        let mut out = Solid::default();
         match self {
             Shape::Ground { size: [x, z] } => {
                 let (x, z) = (x / 2.0, z / 2.0);
                 let corner = |x, z| DVec3::new(x, 0.0, z);
-                quad(&mut out, [corner(-x, -z), corner(-x, z), corner(x, z), corner(x, -z)]);
+                polygon(&mut out, &[corner(-x, -z), corner(-x, z), corner(x, z), corner(x, -z)]);
             }
             Shape::Block { size: [x, y, z] } => {
                 block(&mut out, DVec3::new(-x / 2.0, 0.0, -z / 2.0), DVec3::new(x / 2.0, *y, z / 2.0));
             }
-            Shape::Ball { radius } => surface(&mut out, ROUND, ROUND / 2, |u, v| {
-                let (around, down) = (u * TAU, v * TAU / 2.0);
-                let normal = DVec3::new(
-                    libm::sin(down) * libm::sin(around),
-                    libm::cos(down),
-                    libm::sin(down) * libm::cos(around),
-                );
-                (normal * *radius + DVec3::Y * *radius, normal)
-            }),
+            Shape::Ball { radius } => {
+                surface(&mut out, ROUND, ROUND / 2, |u, v| {
+                    let (around, down) = (u * TAU, v * TAU / 2.0);
+                    let normal = DVec3::new(
+                        libm::sin(down) * libm::sin(around),
+                        libm::cos(down),
+                        libm::sin(down) * libm::cos(around),
+                    );
+                    (normal * *radius + DVec3::Y * *radius, normal)
+                });
+                out.stand_for(0, Form::Ball { centre: DVec3::Y * *radius, radius: *radius });
+            }
             Shape::Column { radius, height } => column(&mut out, *radius, *height),
             Shape::Fence { bars, width, gap, height } => fence(&mut out, *bars, *width, *gap, *height),
             Shape::Lattice { cells, size, width } => lattice(&mut out, *cells, *size, *width),
             Shape::Foliage { leaves, radius, length, seed } => foliage(&mut out, *leaves, *radius, *length, *seed),
             Shape::Text { text, height, stroke } => letters::write(&mut out, text, *height, *stroke),
+            Shape::Polygon { corners } => polygon(&mut out, corners),
             Shape::Teapot { divisions } => teapot::build(&mut out, *divisions),
         }
         out
@@ -124,17 +133,17 @@ impl Shape {
     }
 }
 
-fn column(out: &mut Vec<Triangle>, radius: f64, height: f64) {
+fn column(out: &mut Solid, radius: f64, height: f64) {
     let rim = |u: f64| DVec3::new(libm::sin(u * TAU), 0.0, libm::cos(u * TAU));
     surface(out, ROUND, 1, |u, v| (rim(u) * radius + DVec3::Y * height * (1.0 - v), rim(u)));
     let top = |u: f64| rim(u) * radius + DVec3::Y * height;
     for i in 0..ROUND {
         let at = |i: u32| top(f64::from(i) / f64::from(ROUND));
-        out.push(Triangle::flat([DVec3::Y * height, at(i), at(i + 1)]));
+        out.triangles.push(Triangle::flat([DVec3::Y * height, at(i), at(i + 1)]));
     }
 }
 
-fn fence(out: &mut Vec<Triangle>, bars: u32, width: f64, gap: f64, height: f64) {
+fn fence(out: &mut Solid, bars: u32, width: f64, gap: f64, height: f64) {
     let pitch = width + gap;
     let length = f64::from(bars) * pitch - gap;
     for index in 0..bars {
@@ -148,7 +157,7 @@ fn fence(out: &mut Vec<Triangle>, bars: u32, width: f64, gap: f64, height: f64) 
     }
 }
 
-fn lattice(out: &mut Vec<Triangle>, [across, up]: [u32; 2], [width, height]: [f64; 2], thick: f64) {
+fn lattice(out: &mut Solid, [across, up]: [u32; 2], [width, height]: [f64; 2], thick: f64) {
     let share = |index: u32, count: u32| f64::from(index) / f64::from(count);
     for index in 0..=across {
         let x = width * (share(index, across) - 0.5);
@@ -160,7 +169,7 @@ fn lattice(out: &mut Vec<Triangle>, [across, up]: [u32; 2], [width, height]: [f6
     }
 }
 
-fn foliage(out: &mut Vec<Triangle>, leaves: u32, radius: f64, length: f64, seed: u64) {
+fn foliage(out: &mut Solid, leaves: u32, radius: f64, length: f64, seed: u64) {
     let mut random = Random::new(seed);
     let mut signed = || 2.0 * random.unit() - 1.0;
     for _ in 0..leaves {
@@ -173,6 +182,6 @@ fn foliage(out: &mut Vec<Triangle>, leaves: u32, radius: f64, length: f64, seed:
         let turn = DQuat::from_xyzw(signed(), signed(), signed(), signed() + 1e-3);
         let turn = turn.normalize();
         let at = |along: f64, across: f64| place + turn * DVec3::new(along * length, 0.0, across * length);
-        quad(out, [at(-0.5, 0.0), at(0.05, 0.22), at(0.5, 0.0), at(0.05, -0.22)]);
+        polygon(out, &[at(-0.5, 0.0), at(0.05, 0.22), at(0.5, 0.0), at(0.05, -0.22)]);
     }
 }

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::solid::{Triangle, surface};
+use super::solid::{Solid, surface};
 
 /// Radius and height of the control points: rim, body above, body below, bottom, knob, lid.
 const PROFILES: [[[f64; 2]; 4]; 6] = [
@@ -57,7 +57,7 @@ const ROUND: f64 = 0.56;
 type Patch = [[DVec3; 4]; 4];
 
 /// Builds the teapot with `divisions` × `divisions` quads per patch.
-pub(in crate::scene) fn build(out: &mut Vec<Triangle>, divisions: u32) {
+pub(in crate::scene) fn build(out: &mut Solid, divisions: u32) {
     for profile in PROFILES {
         for quarter in 0..4 {
             let turn = |x: f64, z: f64| match quarter {
@@ -82,7 +82,7 @@ pub(in crate::scene) fn build(out: &mut Vec<Triangle>, divisions: u32) {
     }
 }
 
-fn tessellate(out: &mut Vec<Triangle>, patch: &Patch, divisions: u32) {
+fn tessellate(out: &mut Solid, patch: &Patch, divisions: u32) {
     surface(out, divisions, divisions, |u, v| {
         let (along_u, along_v) = tangents(patch, u, v);
         let mut across = along_u.cross(along_v);

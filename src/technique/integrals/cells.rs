@@ -62,8 +62,8 @@ struct View<'a> {
 
 /// The direction with an azimuth and a polar angle.
 pub fn direction(at: DVec2) -> DVec3 {
-    let (sin, cos) = at.y.sin_cos();
-    DVec3::new(at.x.cos() * sin, at.x.sin() * sin, cos)
+    let (sin, cos) = libm::sincos(at.y);
+    DVec3::new(libm::cos(at.x) * sin, libm::sin(at.x) * sin, cos)
 }
 
 impl View<'_> {
@@ -89,7 +89,7 @@ pub fn divide(normal: DVec3, occluders: &Occluders, lobes: &[Lobe], settings: &S
         let half = 0.5 * (patch.hi - patch.lo);
         let at_centre = view.distance(centre);
         // No direction of the patch is farther from its centre.
-        let reach = (half.x * widest(patch)).hypot(half.y);
+        let reach = libm::hypot(half.x * widest(patch), half.y);
         if at_centre < -reach {
             continue;
         }
@@ -116,7 +116,11 @@ pub fn divide(normal: DVec3, occluders: &Occluders, lobes: &[Lobe], settings: &S
 
 /// Largest sine of the polar angle in a patch.
 fn widest(patch: Patch) -> f64 {
-    if patch.lo.y <= 0.5 * PI && patch.hi.y >= 0.5 * PI { 1.0 } else { patch.lo.y.sin().max(patch.hi.y.sin()) }
+    if patch.lo.y <= 0.5 * PI && patch.hi.y >= 0.5 * PI {
+        1.0
+    } else {
+        libm::sin(patch.lo.y).max(libm::sin(patch.hi.y))
+    }
 }
 
 /// The corners, counter-clockwise.
@@ -143,8 +147,8 @@ fn bent(view: &View<'_>, patch: Patch, corners: &[(DVec2, f64); 4], threshold: f
 
 /// The range of the cosine to an axis in a patch, exactly.
 fn range(patch: Patch, axis: DVec3) -> (f64, f64) {
-    let azimuth = if axis.x == 0.0 && axis.y == 0.0 { 0.0 } else { axis.y.atan2(axis.x) };
-    let polar = axis.z.clamp(-1.0, 1.0).acos();
+    let azimuth = if axis.x == 0.0 && axis.y == 0.0 { 0.0 } else { libm::atan2(axis.y, axis.x) };
+    let polar = libm::acos(axis.z.clamp(-1.0, 1.0));
     let inside = |at: DVec2| {
         let turned = patch.lo.x + (at.x - patch.lo.x).rem_euclid(TAU);
         turned <= patch.hi.x && (patch.lo.y..=patch.hi.y).contains(&at.y)
@@ -159,7 +163,7 @@ fn range(patch: Patch, axis: DVec3) -> (f64, f64) {
         }
     }
     for phi in [patch.lo.x, patch.hi.x] {
-        let theta = (axis.x * phi.cos() + axis.y * phi.sin()).atan2(axis.z);
+        let theta = libm::atan2(axis.x * libm::cos(phi) + axis.y * libm::sin(phi), axis.z);
         for theta in [theta, theta + PI, theta - PI] {
             if (patch.lo.y..=patch.hi.y).contains(&theta) {
                 all.push(axis.dot(direction(DVec2::new(phi, theta))));
@@ -179,9 +183,9 @@ fn range(patch: Patch, axis: DVec3) -> (f64, f64) {
 /// How far a lobe is from its linear approximation over a range, relative to its largest value.
 fn curvature(lobe: &Lobe, (a, b): (f64, f64)) -> f64 {
     let y = 0.5 * lobe.sharpness * (b - a);
-    let largest = (lobe.sharpness * (b - 1.0)).exp();
+    let largest = libm::exp(lobe.sharpness * (b - 1.0));
     // The error at the ends of the range grows like y²/3, up to the value itself.
-    largest * ((-y).exp() * y * y / 3.0).max(if y > 1.0 { 0.5 } else { 0.0 })
+    largest * (libm::exp(-y) * y * y / 3.0).max(if y > 1.0 { 0.5 } else { 0.0 })
 }
 
 /// The visible parts of a patch: polygons in azimuth and polar angle, counter-clockwise.

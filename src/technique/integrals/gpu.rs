@@ -9,7 +9,7 @@ use encase::ShaderType;
 use glam::{UVec4, Vec3};
 
 use super::tables::Tables;
-use super::{Body, Scene, Settings, Shaded, Surface};
+use super::{Body, Settings, Shaded, Surface, Surroundings};
 use crate::diag::Failure;
 use crate::emit::{self, wgsl_module};
 use crate::gpu::pass::{Compute, Module, Resources};
@@ -35,7 +35,7 @@ impl<'g> LightPipeline<'g> {
     ///
     /// # Errors
     /// When the device refuses the shader.
-    pub fn new(gpu: &'g Gpu, tables: &Tables, scene: &Scene) -> Result<Self, Failure> {
+    pub fn new(gpu: &'g Gpu, tables: &Tables, scene: &Surroundings) -> Result<Self, Failure> {
         let mut source = String::new();
         for function in tables.for_shaders() {
             source += &emit::wgsl(&Plan::proved(function, Shape::Ladder)?);
@@ -62,7 +62,12 @@ impl<'g> LightPipeline<'g> {
     ///
     /// # Errors
     /// When the device fails.
-    pub fn shade(&self, scene: &Scene, settings: &Settings, surfaces: &[Option<Surface>]) -> Result<Shaded, Failure> {
+    pub fn shade(
+        &self,
+        scene: &Surroundings,
+        settings: &Settings,
+        surfaces: &[Option<Surface>],
+    ) -> Result<Shaded, Failure> {
         let gpu = self.gpu;
         let scene_buffer = gpu.storage("scene", &scene_bytes(scene, settings)?);
         let mut shaded = Shaded::default();
@@ -124,7 +129,7 @@ struct LobeRow {
 
 /// A `Scene` of the skeleton. The lengths of its arrays differ from scene to scene, so that they are laid out one by
 /// one; each has one element more than there are things, as it must have one.
-fn scene_bytes(scene: &Scene, settings: &Settings) -> Result<Vec<u8>, Failure> {
+fn scene_bytes(scene: &Surroundings, settings: &Settings) -> Result<Vec<u8>, Failure> {
     let limits = Limits { border: settings.border as f32, curvature: settings.lobe as f32, depth: settings.depth };
     let balls = scene.balls.iter().map(|ball| ball.centre.as_vec3().extend(ball.radius as f32));
     let mut ends = 0;

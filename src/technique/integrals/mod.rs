@@ -1,7 +1,9 @@
 //! Lighting by integral expansions: a demonstration of the double product tables.
 //!
 //! The light around a shading point is a few spherical Gaussians, the occluders
-//! are balls and flat polygons, and the surface is diffuse. For each point the sphere of directions
+//! are balls and flat polygons, and the surface is diffuse: of a scene it takes
+//! objects of these forms, and Gaussian lights that are as wide along one axis as
+//! along the other. For each point the sphere of directions
 //! is divided into cells ([`cells`]) in which every Gaussian is nearly linear in
 //! the direction and the border of the visible part nearly straight; what each
 //! cell sends is then a closed form, and that is a *table*: this module divides
@@ -17,11 +19,11 @@ pub mod cells;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod picture;
-mod scene;
+mod surroundings;
 mod tables;
 mod visibility;
 
-pub use scene::{Ball, Body, Lobe, Plate, Scene, Surface};
+pub use surroundings::{Ball, Body, Lobe, Plate, Surface, Surroundings};
 pub use visibility::{Cap, Facet, Occluders};
 
 pub use picture::Shaded;

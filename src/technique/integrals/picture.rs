@@ -3,16 +3,14 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use image::{Rgb, RgbImage};
+use image::{Rgb, Rgb32FImage, RgbImage};
 use rayon::prelude::*;
 
 use super::cells::{Division, Edge, divide};
 use super::tables::Interpreters;
-use super::{Lobe, Scene, Settings, Surface, Tables};
+use super::{Lobe, Settings, Surface, Surroundings, Tables};
 use crate::diag::Failure;
-
-/// Angle of view from bottom to top.
-const VIEW: f64 = 0.7;
+use crate::picture::srgb;
 
 /// Points whose edges are evaluated together.
 const PORTION: usize = 2048;
@@ -44,26 +42,12 @@ impl Surface {
     }
 }
 
-/// The surfaces behind the pixels of a picture.
-pub fn surfaces(scene: &Scene, width: u32, height: u32) -> Vec<Option<Surface>> {
-    let forward = (scene.target - scene.eye).normalize();
-    let right = forward.cross(DVec3::Z).normalize();
-    let up = right.cross(forward);
-    let scale = (0.5 * VIEW).tan() / (0.5 * f64::from(height));
-    let pixel = |i: u32| {
-        let x = (f64::from(i % width) + 0.5 - 0.5 * f64::from(width)) * scale;
-        let y = (0.5 * f64::from(height) - f64::from(i / width) - 0.5) * scale;
-        scene.hit(scene.eye, (forward + right * x + up * y).normalize())
-    };
-    (0..width * height).into_par_iter().map(pixel).collect()
-}
-
 /// Light at surfaces by the tables and their batch interpreter.
 ///
 /// # Errors
 /// If a table does not have the functions that it should.
 pub fn shade(
-    scene: &Scene,
+    scene: &Surroundings,
     tables: &Tables,
     settings: &Settings,
     surfaces: &[Option<Surface>],
@@ -90,7 +74,7 @@ pub fn shade(
 
 /// Light, cells and edges of some surfaces.
 fn shade_some(
-    scene: &Scene,
+    scene: &Surroundings,
     tables: &Tables,
     interpreters: &mut Interpreters<'_>,
     settings: &Settings,
@@ -133,7 +117,7 @@ fn shade_some(
 }
 
 /// The light at a surface by a sum over these directions.
-pub fn brute_force(scene: &Scene, surface: &Surface, directions: &[(DVec3, DVec3)]) -> DVec3 {
+pub fn brute_force(scene: &Surroundings, surface: &Surface, directions: &[(DVec3, DVec3)]) -> DVec3 {
     let occluders = scene.occluders(surface);
     let hidden = occluders.hide();
     let sum: DVec3 = directions
@@ -154,19 +138,17 @@ pub fn directions(lobes: &[Lobe], fineness: u32) -> Vec<(DVec3, DVec3)> {
         let z = 1.0 - 2.0 * (f64::from(i / around) + 0.5) / f64::from(fineness);
         let phi = TAU * (f64::from(i % around) + 0.5) / f64::from(around);
         let flat = (1.0 - z * z).sqrt();
-        let direction = DVec3::new(flat * phi.cos(), flat * phi.sin(), z);
+        let direction = DVec3::new(flat * libm::cos(phi), flat * libm::sin(phi), z);
         (direction, lobes.iter().map(|lobe| lobe.value(direction)).sum::<DVec3>() * solid)
     };
     (0..fineness * around).map(direction).collect()
 }
 
-/// The picture of light as the eye sees it; what is hit by no ray is the sky's colour.
-pub fn developed(width: u32, height: u32, light: &[Option<DVec3>]) -> RgbImage {
-    RgbImage::from_fn(width, height, |x, y| {
-        let light = light.get((y * width + x) as usize).copied().flatten().unwrap_or(DVec3::new(0.75, 0.82, 0.9));
-        let level = |v: f64| (v.clamp(0.0, 1.0).powf(1.0 / 2.2) * 255.0).round() as u8;
-        Rgb([level(light.x), level(light.y), level(light.z)])
-    })
+/// The picture of light as the eye sees it, before a background where nothing is hit.
+pub fn developed(width: u32, height: u32, light: &[Option<DVec3>], background: [f64; 3]) -> RgbImage {
+    let light = |x: u32, y: u32| light.get((y * width + x) as usize).copied().flatten();
+    let seen = |x: u32, y: u32| Rgb(light(x, y).unwrap_or(DVec3::from_array(background)).as_vec3().to_array());
+    srgb::encode(&Rgb32FImage::from_fn(width, height, seen))
 }
 
 /// A map of counts: black for none, through blue and orange to white for `most`.
@@ -181,15 +163,24 @@ pub fn counted(width: u32, height: u32, counts: &[u32], most: u32) -> RgbImage {
 
 #[cfg(test)]
 mod tests {
+    use super::super::surroundings::tests::studio;
     use super::*;
+    use crate::scene::light::Gaussian;
+
+    #[test]
+    fn a_lobe_sends_as_much_light_as_its_light() {
+        let light = Gaussian { tilts: [20.0, -30.0], deviations: [0.3, 0.3], rotation: 0.0, colour: [2.0, 1.0, 0.5] };
+        let lobe = Lobe::of(&light).expect("equal deviations");
+        let all: DVec3 = directions(&[lobe], 200).iter().map(|(_, light)| *light).sum();
+        let expected = PI * DVec3::from_array(light.colour);
+        assert!((all - expected).length() < 1e-3 * expected.length(), "{all} {expected}");
+    }
 
     #[test]
     fn tables_and_brute_force_agree() {
-        let scene = Scene::example();
+        let (scene, surfaces) = studio(16, 9);
         let tables = Tables::new().unwrap_or_else(|e| panic!("{e}"));
-        let (width, height) = (16, 9);
         let settings = Settings::with_threshold(0.03);
-        let surfaces = surfaces(&scene, width, height);
         let shaded = shade(&scene, &tables, &settings, &surfaces).unwrap_or_else(|e| panic!("{e}"));
         let directions = directions(&scene.lobes, 160);
         let (mut error, mut whole) = (0.0, 0.0);

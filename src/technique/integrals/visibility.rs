@@ -44,7 +44,7 @@ impl Cap {
     /// What a ball hides whose centre is so far away.
     pub fn of_ball(offset: DVec3, radius: f64) -> Self {
         let distance = offset.length();
-        Self { axis: offset / distance, angle: (radius / distance).min(1.0).asin() }
+        Self { axis: offset / distance, angle: libm::asin((radius / distance).min(1.0)) }
     }
 
     /// Angle to its edge: negative inside.
@@ -68,7 +68,7 @@ impl Facet {
         let axis = arcs.iter().map(|arc| arc.from).sum::<DVec3>().normalize_or_zero();
         let least = arcs.iter().map(|arc| axis.dot(arc.from)).fold(1.0, f64::min);
         // Larger caps are not convex.
-        let around = Cap { axis, angle: if least > 0.0 { least.acos() } else { PI } };
+        let around = Cap { axis, angle: if least > 0.0 { libm::acos(least) } else { PI } };
         Self { arcs, around }
     }
 
@@ -81,7 +81,7 @@ impl Facet {
     fn distance(&self, direction: DVec3) -> f64 {
         let depth = self.depth(direction);
         if depth > 0.0 {
-            return -depth.asin();
+            return -libm::asin(depth);
         }
         self.arcs.iter().map(|arc| arc.distance(direction)).fold(PI, f64::min)
     }
@@ -92,7 +92,7 @@ impl Arc {
         // The nearest place of the great circle, if it is between the ends.
         let along = self.normal.cross(direction);
         if self.from.dot(along) * self.to.dot(along) < 0.0 && (self.from + self.to).dot(direction) > 0.0 {
-            self.normal.dot(direction).abs().min(1.0).asin()
+            libm::asin(self.normal.dot(direction).abs().min(1.0))
         } else {
             angle(self.from, direction).min(angle(self.to, direction))
         }
@@ -103,18 +103,17 @@ impl Occluders {
     /// Angle from a direction to the nearest change of visibility, for a surface with this normal: positive where
     /// the sky is visible. It changes by no more than the direction does.
     pub fn distance(&self, normal: DVec3, direction: DVec3) -> f64 {
-        let horizon = normal.dot(direction).clamp(-1.0, 1.0).asin();
+        let horizon = libm::asin(normal.dot(direction).clamp(-1.0, 1.0));
         let nearest = self.caps.iter().map(|cap| cap.distance(direction)).fold(horizon, f64::min);
-        let nearer = |nearest: f64, facet: &Facet| match facet.around.distance(direction) < nearest {
-            true => nearest.min(facet.distance(direction)),
-            false => nearest,
+        let nearer = |nearest: f64, facet: &Facet| {
+            if facet.around.distance(direction) < nearest { nearest.min(facet.distance(direction)) } else { nearest }
         };
         self.facets.iter().fold(nearest, nearer)
     }
 
     /// A test that hides nothing but what they hide, made once for many directions.
     pub fn hide(&self) -> impl Fn(DVec3) -> bool {
-        let caps: Vec<(DVec3, f64)> = self.caps.iter().map(|cap| (cap.axis, cap.angle.cos())).collect();
+        let caps: Vec<(DVec3, f64)> = self.caps.iter().map(|cap| (cap.axis, libm::cos(cap.angle))).collect();
         move |direction| {
             caps.iter().any(|(axis, cosine)| axis.dot(direction) > *cosine)
                 || self.facets.iter().any(|facet| facet.depth(direction) > 0.0)
@@ -124,7 +123,7 @@ impl Occluders {
 
 /// The angle between two unit vectors.
 fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.dot(b).clamp(-1.0, 1.0).acos()
+    libm::acos(a.dot(b).clamp(-1.0, 1.0))
 }
 
 #[cfg(test)]
