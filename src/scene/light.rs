@@ -48,7 +48,7 @@ pub struct Spot {
 pub struct Polygon {
     /// Three to eight, counter-clockwise as seen from the side that emits.
     pub corners: Vec<DVec3>,
-    /// Whether both sides emit.
+    /// True if both sides emit.
     pub two_sided: bool,
     /// Radiance, linear.
     pub colour: [f64; 3],

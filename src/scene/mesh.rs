@@ -161,7 +161,7 @@ fn gltf(path: &Path) -> Result<Vec<Triangle>, Diagnostic> {
     Ok(triangles)
 }
 
-/// Whether an accessor's data are there. The reader trusts the file in this.
+/// Returns whether an accessor's data are there. The reader trusts the file in this.
 fn is_inside(accessor: &gltf::Accessor<'_>, buffers: &[gltf::buffer::Data]) -> bool {
     let Some(view) = accessor.view() else { return false };
     let Some(buffer) = buffers.get(view.buffer().index()) else { return false };

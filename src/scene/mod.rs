@@ -32,9 +32,9 @@ const MAX_BYTES: u64 = 16 << 20;
 pub struct Scene {
     /// Its name: that of a built-in scene, or the stem of its file's name.
     pub name: String,
-    /// What it shows.
+    /// Its title.
     pub title: String,
-    /// From where it is seen.
+    /// Its viewpoint.
     pub camera: Camera,
     /// Its lights; at least one.
     pub lights: Vec<Light>,
@@ -42,7 +42,7 @@ pub struct Scene {
     pub ambient: f64,
     /// Colour of the background, linear.
     pub background: [f64; 3],
-    /// What is in it; at least one object, each with at least one triangle.
+    /// Its contents; at least one object, each with at least one triangle.
     pub objects: Vec<Object>,
 }
 
@@ -51,7 +51,7 @@ pub struct Scene {
 pub struct Object {
     /// Its colour, linear.
     pub colour: [f64; 3],
-    /// Whether the shadow map is fitted to it.
+    /// True of objects that the shadow map is fitted to.
     pub casts: bool,
     /// Its surface, seen from both sides.
     pub triangles: Vec<Triangle>,

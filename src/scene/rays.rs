@@ -1,8 +1,8 @@
 //! Rays: the first surface that is met, and tests for anything in the way.
 //!
-//! Balls are traced as the triangles that stand for them, or exactly, as the
-//! hierarchy is built. There are two kinds of tests: towards a light
-//! without extent, from a point that a ray has found, and of any open segment.
+//! Balls are traced as the triangles that stand for them ([`Rays::new`]) or exactly
+//! ([`Rays::exact`]). There are two kinds of tests: from a point that a ray has found
+//! towards a light without extent, and of any open segment.
 //!
 //! The hierarchy works in single precision and only *finds* triangles. Where on
 //! a triangle a ray ends is computed from the triangle's plane in double
@@ -34,7 +34,7 @@ pub struct Rays {
     parts: Vec<Option<u32>>,
     /// Balls that are traced exactly; their triangles are not in the hierarchy.
     balls: Vec<Ball>,
-    /// How far a shadow ray starts from its surface.
+    /// Distance of the start of a shadow ray from its surface.
     gap: f64,
     /// Largest coordinate, which tells how fine numbers of a precision are.
     reach: f64,
@@ -63,7 +63,7 @@ pub struct Tests<'r> {
 /// A point of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// Where it is.
+    /// Its place.
     pub place: DVec3,
     /// The normal of its triangle, on the side that is seen.
     pub normal: DVec3,
@@ -180,7 +180,7 @@ impl Rays {
         found.then(|| (self.numbers[hit.primitive_id as usize], hit.t))
     }
 
-    /// Where a ray meets the plane of a triangle, which need not be inside of the triangle.
+    /// The point where a ray meets the plane of a triangle, inside of the triangle or not.
     pub(crate) fn point_on(&self, number: u32, (start, direction): (DVec3, DVec3)) -> Option<SurfacePoint> {
         let Triangle { corners: [a, b, c], normals } = &self.triangles[number as usize];
         let across = (*b - *a).cross(*c - *a);

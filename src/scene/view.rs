@@ -7,12 +7,12 @@
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 
-/// From where a picture is taken.
+/// The viewpoint of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
-    /// Where it stands.
+    /// Its place.
     pub eye: DVec3,
-    /// What it looks at.
+    /// A place in the middle of the picture.
     pub target: DVec3,
     /// Angle of view from bottom to top, in degrees.
     pub angle: f64,
@@ -112,7 +112,7 @@ impl View {
         Self::new(project * look, Origin::Point(position))
     }
 
-    /// Where a place is seen: across and down from 0 to 1, and depth. `None` behind the viewer.
+    /// The place of the square in which a place of the world is seen: across and down from 0 to 1, and depth. `None` behind the viewer.
     pub fn project(&self, place: DVec3) -> Option<(DVec2, f64)> {
         let clip = self.matrix * place.extend(1.0);
         let at = clip.truncate() / clip.w;

@@ -208,10 +208,10 @@ impl<'a> Read<'a> {
 
     fn count(&self, raw: Raw<'a>, most: u32) -> Result<u32> {
         let count: u32 = self.reader.get(raw)?;
-        match (1..=most).contains(&count) {
-            true => Ok(count),
-            false => Err(self.wrong(raw, &format!("{count} is out of range")).help(format!("expected 1 to {most}"))),
+        if (1..=most).contains(&count) {
+            return Ok(count);
         }
+        Err(self.wrong(raw, &format!("{count} is out of range")).help(format!("expected 1 to {most}")))
     }
 
     fn pair(&self, raw: Raw<'a>) -> Result<[f64; 2]> {

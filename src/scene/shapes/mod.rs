@@ -38,7 +38,7 @@ pub enum Shape {
     },
     /// Upright bars with two rails.
     Fence {
-        /// How many bars.
+        /// Number of bars.
         bars: u32,
         /// Width and depth of a bar.
         width: f64,
@@ -58,18 +58,18 @@ pub enum Shape {
     },
     /// Leaves scattered in a ball.
     Foliage {
-        /// How many leaves.
+        /// Number of leaves.
         leaves: u32,
         /// Radius of the ball.
         radius: f64,
         /// Length of a leaf.
         length: f64,
-        /// Which of the possible arrangements.
+        /// Seed of the arrangement.
         seed: u64,
     },
     /// A line of capital letters and digits, standing.
     Text {
-        /// What it says.
+        /// The letters.
         text: String,
         /// Height of the letters.
         height: f64,
@@ -127,7 +127,7 @@ impl Shape {
         out
     }
 
-    /// Whether it belongs to what the shadow map is fitted to.
+    /// Returns whether the shadow map is fitted to it.
     pub(super) fn casts(&self) -> bool {
         !matches!(self, Shape::Ground { .. })
     }

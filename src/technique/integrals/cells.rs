@@ -53,7 +53,7 @@ struct Patch {
     depth: u32,
 }
 
-/// What can be seen from a point.
+/// The view from a point.
 #[derive(Debug)]
 struct View<'a> {
     normal: DVec3,
@@ -134,7 +134,7 @@ fn quarters(patch: Patch) -> [Patch; 4] {
     corners(patch).map(|corner| Patch { lo: corner.min(centre), hi: corner.max(centre), depth: patch.depth + 1 })
 }
 
-/// Whether the distance differs from the interpolation of its corner values.
+/// Returns whether the distance differs from the interpolation of its corner values.
 fn bent(view: &View<'_>, patch: Patch, corners: &[(DVec2, f64); 4], threshold: f64) -> bool {
     let at = |x: f64, y: f64| {
         let place = patch.lo + DVec2::new(x, y) * (patch.hi - patch.lo);
@@ -180,7 +180,7 @@ fn range(patch: Patch, axis: DVec3) -> (f64, f64) {
     (lo.max(-1.0), all.iter().copied().fold(-1.0, f64::max).min(1.0))
 }
 
-/// How far a lobe is from its linear approximation over a range, relative to its largest value.
+/// The error of the linear approximation of a lobe over a range, relative to its largest value.
 fn curvature(lobe: &Lobe, (a, b): (f64, f64)) -> f64 {
     let y = 0.5 * lobe.sharpness * (b - a);
     let largest = libm::exp(lobe.sharpness * (b - 1.0));
@@ -215,7 +215,7 @@ fn polygons(view: &View<'_>, corners: &[(DVec2, f64); 4], at_centre: f64) -> Vec
     if outline.len() < 3 { Vec::new() } else { vec![outline] }
 }
 
-/// Where the distance is zero between two corners: linear, then one step of false position.
+/// The place where the distance is zero between two corners: linear, then one step of false position.
 fn crossing(view: &View<'_>, (from, d): (DVec2, f64), (to, e): (DVec2, f64)) -> DVec2 {
     let part = d / (d - e);
     let f = view.distance(from.lerp(to, part));

@@ -29,7 +29,7 @@ pub use visibility::{Cap, Facet, Occluders};
 pub use picture::Shaded;
 pub use tables::{Moments, Tables};
 
-/// How finely the sphere of directions is divided.
+/// The fineness of the division of the sphere of directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Largest error of the border's distance in a cell, in radians: the e_r of the publication.

@@ -15,7 +15,7 @@ use crate::picture::srgb;
 /// Points whose edges are evaluated together.
 const PORTION: usize = 2048;
 
-/// What is computed for surfaces, one after the other.
+/// The results for surfaces, one after the other.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Shaded {
     /// Light that is sent to the camera; `None` where nothing is hit.
@@ -36,7 +36,7 @@ impl Shaded {
 }
 
 impl Surface {
-    /// What it sends on of the light that falls on it.
+    /// The share that it sends on of the light that falls on it.
     pub(super) fn sent(&self, light: DVec3) -> DVec3 {
         light * self.albedo / PI
     }

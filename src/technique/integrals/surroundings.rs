@@ -20,7 +20,7 @@ const NAME: &str = "integrals";
 pub struct Lobe {
     /// Unit vector of the largest value.
     pub axis: DVec3,
-    /// How narrow it is.
+    /// Its narrowness: one over the square of its deviation.
     pub sharpness: f64,
     /// The largest value, per colour channel.
     pub amplitude: DVec3,
@@ -44,7 +44,7 @@ pub struct Plate {
 
 /// Balls and plates under lobes of light.
 ///
-/// What casts no shadow in a scene, its ground, is lit and hides nothing.
+/// The ground of a scene is lit and hides nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
     /// The balls.
@@ -73,7 +73,7 @@ pub enum Body {
 /// A place on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surface {
-    /// Where it is; z is up.
+    /// Its place; z is up.
     pub place: DVec3,
     /// Its unit normal, on the side that is seen; z is up.
     pub normal: DVec3,

@@ -9,14 +9,14 @@ use crate::eval::{Batch, Column, Columns, Results};
 use crate::program::{Input, Program};
 use crate::table::Table;
 
-/// What the function of moments calls its numbers: ∫∫ ω, then ∫∫ ω ω.
+/// The names of the numbers of the function of moments: ∫∫ ω, then ∫∫ ω ω.
 const MOMENTS: [&str; 9] = ["mx", "my", "mz", "mxx", "mxy", "myy", "mxz", "myz", "mzz"];
 
 /// The functions that are evaluated.
 #[derive(Debug)]
 pub struct Tables {
     moments: Program,
-    /// Where each of [`MOMENTS`] is among the numbers that the function returns.
+    /// The index of each of [`MOMENTS`] among the numbers that the function returns.
     order: [usize; 9],
     alpha: Program,
     beta: Program,
@@ -142,7 +142,7 @@ impl Tables {
         &self.moments
     }
 
-    /// What a shader evaluates that divides the directions by itself.
+    /// The functions of a shader that divides the directions by itself.
     #[cfg(feature = "gpu")]
     pub(super) fn for_shaders(&self) -> [&Program; 4] {
         [&self.moments, &self.alpha, &self.beta, &self.interval]

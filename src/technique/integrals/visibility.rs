@@ -41,7 +41,7 @@ pub struct Occluders {
 }
 
 impl Cap {
-    /// What a ball hides whose centre is so far away.
+    /// The directions hidden by a ball with its centre at an offset.
     pub fn of_ball(offset: DVec3, radius: f64) -> Self {
         let distance = offset.length();
         Self { axis: offset / distance, angle: libm::asin((radius / distance).min(1.0)) }
@@ -54,7 +54,7 @@ impl Cap {
 }
 
 impl Facet {
-    /// What a flat convex polygon hides, whose corners are so far away.
+    /// The directions hidden by a flat convex polygon with its corners at these offsets.
     pub fn new(corners: impl Iterator<Item = DVec3>) -> Self {
         let corners: Vec<DVec3> = corners.collect();
         let corner = |i: usize| corners.get(i).copied().unwrap_or_default();
