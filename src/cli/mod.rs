@@ -5,6 +5,7 @@
 //! output, messages to standard error.
 
 mod answers;
+mod args;
 mod atlas;
 mod build;
 mod check;
@@ -29,6 +30,7 @@ mod render;
 mod report;
 mod scenes;
 mod stabilise;
+mod techniques;
 #[cfg(test)]
 mod tests;
 #[cfg(feature = "gpu")]
@@ -96,7 +98,9 @@ enum Command {
     Render(render::Arguments),
     /// List the scenes that come with Umbrage
     Scenes,
-    /// Light a picture by integral expansions
+    /// List the techniques, with their tables, lights and settings
+    Techniques,
+    /// Light a picture by integral expansions: short for `render --technique integrals`, beside brute force
     Light(render::light::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
@@ -193,6 +197,7 @@ pub fn main() -> ExitCode {
         Command::Quality(arguments) => render::quality::run(&arguments, &report),
         Command::Render(arguments) => render::run(&arguments, &report),
         Command::Scenes => scenes::run(&report),
+        Command::Techniques => techniques::run(&report),
         Command::Light(arguments) => render::light::run(&arguments, &report),
         Command::Stabilise(arguments) => stabilise::run(&arguments, &report),
         #[cfg(feature = "gpu")]
@@ -210,7 +215,7 @@ pub fn main() -> ExitCode {
             report.failure(&failure);
             ExitCode::from(2)
         }
-        // Whoever read our output has seen enough.
+        // The reader of the output has seen enough.
         Err(Error::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(Error::Stdout(error)) => {
             let message = format!("cannot be written: {}", crate::text::file::io_reason(&error));

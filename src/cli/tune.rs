@@ -4,14 +4,15 @@ mod whole;
 
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
 
+use super::args::{parse_map, parse_size};
 use super::messages::{Format, Report};
 use super::output::Sink;
-use super::render::frame::{parse_map, parse_size};
 use super::{Outcome, Result, input, parse_shape, profile};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::gpu::timing::{Clock, Protocol};
@@ -19,6 +20,7 @@ use crate::gpu::{AdapterChoice, Gpu};
 use crate::plan::Shape;
 use crate::profile::fit;
 use crate::program::Program;
+use crate::technique::Executor;
 use crate::text::file::shown;
 use crate::tune::{self, Kind, Options, Tuning};
 use crate::tuned::Tuned;
@@ -126,7 +128,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         // Said before anything takes time.
         whole::check(arguments, &program)?;
     }
-    let gpu = Gpu::open(&arguments.adapter)?;
+    let gpu = Arc::new(Gpu::open(&arguments.adapter)?);
     let path = Tuned::path(&arguments.output, gpu.name());
     let kept = Tuned::read(&path)?.unwrap_or_else(|| Tuned::new(gpu.name()));
     let bar = progress();
@@ -136,7 +138,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let result = result.and_then(|mut tuning| {
         if arguments.whole {
             bar.set_message("measuring whole shaders");
-            tuning.whole = whole::measure(arguments, &program, &gpu, &tuning)?;
+            tuning.whole = whole::measure(arguments, &program, &Executor::Gpu(Arc::clone(&gpu)), &tuning)?;
         }
         Ok(tuning)
     });

@@ -1,4 +1,6 @@
-//! How far a technique is from the true shadow.
+//! Differences between a picture of visibility and the true one.
+//!
+//! Each pixel weighs what light would leave there: an error in the dark is none.
 
 use image::{GrayImage, Luma};
 
@@ -13,32 +15,35 @@ pub struct Difference {
     pub dissimilarity: f64,
 }
 
-/// The pixels that differences are taken over.
+/// The pixels that differences are taken over, with the weight of each.
 #[derive(Debug, Clone)]
 pub struct Region {
-    pixels: Vec<bool>,
+    weights: Vec<f32>,
 }
 
-/// How far from a silhouette a pixel still counts as near, in pixels.
+/// The distance from a silhouette within which a pixel counts as near, in pixels.
 pub const NEAR: usize = 8;
 
 impl Region {
-    /// All pixels that show a surface.
-    pub fn surfaces(surfaces: &Surfaces) -> Self {
-        Self { pixels: surfaces.points.iter().map(Option::is_some).collect() }
+    /// All pixels that show a surface. `weights` has the light of each pixel, were there no shadow.
+    pub fn surfaces(surfaces: &Surfaces, weights: &[f32]) -> Self {
+        let weight = |(point, weight): (&Option<_>, &f32)| if point.is_some() { *weight } else { 0.0 };
+        Self { weights: surfaces.points.iter().zip(weights).map(weight).collect() }
     }
 
-    /// The pixels that show a surface within [`NEAR`] pixels of a true silhouette of a shadow on it.
-    pub fn silhouettes(surfaces: &Surfaces, truth: &[f32]) -> Self {
+    /// The pixels that show a surface within [`NEAR`] pixels of a true silhouette of a shadow on it, where light
+    /// could reach.
+    pub fn silhouettes(surfaces: &Surfaces, weights: &[f32], truth: &[f32]) -> Self {
         let (width, height) = (surfaces.width as usize, surfaces.height as usize);
         let object = |pixel: usize| surfaces.points[pixel].as_ref().map(|point| point.object);
         let on_silhouette = |pixel: usize| {
             let right = (pixel % width + 1 < width).then_some(pixel + 1);
             let below = (pixel + width < truth.len()).then_some(pixel + width);
-            let mut beside = [right, below].into_iter().flatten();
+            let mut neighbours = [right, below].into_iter().flatten();
             object(pixel).is_some()
+                && weights[pixel] > 0.0
                 && (!matches!(truth[pixel], 0.0 | 1.0)
-                    || beside.any(|other| object(other) == object(pixel) && truth[other] != truth[pixel]))
+                    || neighbours.any(|other| object(other) == object(pixel) && truth[other] != truth[pixel]))
         };
         let mut grown: Vec<bool> = (0..truth.len()).map(on_silhouette).collect();
         // A square grows along rows, then along columns.
@@ -52,31 +57,31 @@ impl Region {
                 })
                 .collect();
         }
-        let surfaces = Self::surfaces(surfaces).pixels;
-        Self { pixels: grown.into_iter().zip(surfaces).map(|(near, surface)| near && surface).collect() }
+        let all = Self::surfaces(surfaces, weights).weights;
+        Self { weights: grown.into_iter().zip(all).map(|(near, weight)| if near { weight } else { 0.0 }).collect() }
     }
 
     /// The share of the picture that it is.
     fn share(&self) -> f64 {
-        self.pixels.iter().filter(|inside| **inside).count() as f64 / self.pixels.len().max(1) as f64
+        self.weights.iter().filter(|weight| **weight > 0.0).count() as f64 / self.weights.len().max(1) as f64
     }
 
-    fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
-        let inside = self.pixels.iter().enumerate().filter(|(_, inside)| **inside).map(|(pixel, _)| pixel);
-        let (sum, count) = inside.fold((0.0, 0_usize), |(sum, count), pixel| (sum + value(pixel), count + 1));
-        sum / count.max(1) as f64
+    /// Root of the mean of squares: of the light that is wrong, over the light that there is.
+    fn rms(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let weights = || self.weights.iter().map(|weight| f64::from(*weight)).enumerate();
+        let wrong: f64 = weights().map(|(pixel, weight)| (weight * value(pixel)).powi(2)).sum();
+        let all: f64 = weights().map(|(_, weight)| weight * weight).sum();
+        (wrong / all.max(f64::MIN_POSITIVE)).sqrt()
     }
 }
 
-/// The difference of a technique from the truth, within a region.
+/// The difference of visibility from the truth, within a region.
 pub fn difference(surfaces: &Surfaces, value: &[f32], truth: &[f32], region: &Region) -> Difference {
-    let square = |pixel: usize| f64::from(value[pixel] - truth[pixel]).powi(2);
     // The library compares whole pictures: outside of the region they are equal, and that is taken out again.
     let grey = |values: &[f32]| {
         let mut image = GrayImage::new(surfaces.width, surfaces.height);
         for (index, pixel) in image.pixels_mut().enumerate() {
-            let value = if region.pixels[index] { values[index] } else { truth[index] };
-            *pixel = Luma([(value * 255.0).round() as u8]);
+            *pixel = Luma([(values[index] * region.weights[index] * 255.0).round() as u8]);
         }
         image
     };
@@ -85,5 +90,5 @@ pub fn difference(surfaces: &Surfaces, value: &[f32], truth: &[f32], region: &Re
     // It refuses pictures of different sizes only.
     let similarity = image_compare::gray_similarity_structure(&algorithm, &grey(value), &grey(truth));
     let dissimilarity = similarity.map_or(f64::NAN, |found| (1.0 - found.score) / share.max(f64::MIN_POSITIVE));
-    Difference { rmse: region.mean(square).sqrt(), dissimilarity }
+    Difference { rmse: region.rms(|pixel| f64::from(value[pixel] - truth[pixel])), dissimilarity }
 }

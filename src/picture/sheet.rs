@@ -1,4 +1,4 @@
-//! Pictures about pictures: cases in colour with their legend, and contact sheets.
+//! Pictures about pictures: colours with their legend, and contact sheets.
 //!
 //! Texts are drawn as SVG and laid over the pixels.
 
@@ -9,31 +9,10 @@ use image::{Rgb, RgbImage};
 
 use crate::diag::Failure;
 use crate::picture;
-use crate::program::Program;
-use crate::technique::revectorise::Visibility;
 
 const PAPER: Rgb<u8> = Rgb([250, 250, 248]);
 const INK: &str = "#1d1f23";
 const MARK: [Rgb<u8>; 2] = [Rgb([230, 40, 40]), Rgb([20, 110, 230])];
-
-/// How often a case was taken.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CaseCount {
-    /// Its id; `None` for the default.
-    pub id: Option<u32>,
-    /// In how many pixels.
-    pub pixels: usize,
-}
-
-/// How many pixels took each case, those taken only, by id; the default comes last.
-pub fn case_counts(program: &Program, visibility: &Visibility) -> Vec<CaseCount> {
-    let count = |case: u32| visibility.case.iter().filter(|taken| **taken == case).count();
-    let mut ids: Vec<u32> = program.rows.iter().map(|row| row.id).collect();
-    ids.sort_unstable();
-    let cases = ids.into_iter().map(|id| CaseCount { id: Some(id), pixels: count(id) });
-    let default = CaseCount { id: None, pixels: count(Visibility::DEFAULT) };
-    cases.chain([default]).filter(|count| count.pixels > 0).collect()
-}
 
 /// The colour of a case, `None` being the default: neighbours in number are far apart in hue.
 pub fn case_colour(case: Option<u32>) -> Rgb<u8> {
@@ -49,41 +28,41 @@ pub fn case_colour(case: Option<u32>) -> Rgb<u8> {
     Rgb([channel(5.0), channel(3.0), channel(1.0)])
 }
 
-/// A picture in which every pixel that asked a table has the colour of the case it took, above a legend.
+/// Colours over a picture, and what they mean.
+#[derive(Debug, Clone)]
+pub struct Legend {
+    /// The line above the entries.
+    pub head: String,
+    /// The colour of each pixel; where there is none, the picture shows through in grey.
+    pub colours: Vec<Option<Rgb<u8>>>,
+    /// Each colour with its meaning.
+    pub entries: Vec<(Rgb<u8>, String)>,
+}
+
+/// A picture in the colours of a legend, above the legend.
 ///
 /// # Errors
 /// When the picture is too large to be drawn.
-pub fn cases(picture: &RgbImage, program: &Program, visibility: &Visibility) -> Result<RgbImage, Failure> {
+pub fn coloured(picture: &RgbImage, legend: &Legend) -> Result<RgbImage, Failure> {
     let mut image = picture.clone();
-    for (pixel, case) in image.pixels_mut().zip(&visibility.case) {
-        *pixel = match *case {
-            Visibility::NONE => {
-                let [r, g, b] = pixel.0.map(u32::from);
-                let grey = ((2 * r + 5 * g + b) / 16 + 60) as u8;
-                Rgb([grey; 3])
-            }
-            Visibility::DEFAULT => case_colour(None),
-            case => case_colour(Some(case)),
-        };
+    for (pixel, colour) in image.pixels_mut().zip(&legend.colours) {
+        *pixel = colour.unwrap_or_else(|| {
+            let [r, g, b] = pixel.0.map(u32::from);
+            let grey = ((2 * r + 5 * g + b) / 16 + 60) as u8;
+            Rgb([grey; 3])
+        });
     }
-    let counts = case_counts(program, visibility);
     let (width, line, entry) = (image.width(), 20, 318);
     let columns = (width / entry).max(1);
-    let rows = (counts.len() as u32).div_ceil(columns);
+    let rows = (legend.entries.len() as u32).div_ceil(columns);
     let height = 34 + rows * line + 10;
     let mut text = String::new();
-    let asked = visibility.case.iter().filter(|case| **case != Visibility::NONE).count();
-    let head = format!("{}: {asked} of {} pixels asked the table", program.name, visibility.case.len());
-    label(&mut text, 10, 22, 14, &head);
-    for (index, count) in counts.iter().enumerate() {
+    label(&mut text, 10, 22, 14, &legend.head);
+    for (index, (Rgb([r, g, b]), meaning)) in legend.entries.iter().enumerate() {
         let (x, y) = (10 + index as u32 / rows * entry, 34 + index as u32 % rows * line);
-        let Rgb([r, g, b]) = case_colour(count.id);
         let _ =
             write!(text, r##"<rect x="{x}" y="{y}" width="14" height="14" fill="rgb({r},{g},{b})" stroke="#888"/>"##);
-        let row = count.id.and_then(|id| program.rows.iter().find(|row| row.id == id));
-        let doc = row.map_or("", |row| row.doc.as_str());
-        let name = count.id.map_or("default".to_owned(), |id| format!("case {id}"));
-        label(&mut text, x + 20, y + 12, 11, &format!("{name}: {} px  {doc}", count.pixels));
+        label(&mut text, x + 20, y + 12, 11, meaning);
     }
     let mut sheet = RgbImage::from_pixel(width, image.height() + height, PAPER);
     imageops::replace(&mut sheet, &image, 0, 0);
@@ -98,8 +77,6 @@ pub struct Entry {
     pub label: String,
     /// The whole picture.
     pub picture: RgbImage,
-    /// The visibility that it shows.
-    pub value: Vec<f32>,
 }
 
 /// Width of a column of a contact sheet.
@@ -152,10 +129,14 @@ pub fn contact(title: &str, entries: &[Entry]) -> Result<RgbImage, Failure> {
 
 /// The corners of at most two squares that do not meet, in which the entries differ most.
 fn places(entries: &[Entry], width: u32, height: u32, side: u32) -> Vec<[u32; 2]> {
-    let spread = |pixel: usize| {
-        let values = entries.iter().map(|entry| entry.value.get(pixel).copied().unwrap_or(1.0));
-        let (lo, hi) = values.fold((1.0_f32, 0.0_f32), |(lo, hi), value| (lo.min(value), hi.max(value)));
-        f64::from((hi - lo).max(0.0))
+    // The pictures themselves are compared: what differs out of the light's reach is not seen.
+    let spread = |x: u32, y: u32| {
+        let channel = |channel: usize| {
+            let values = entries.iter().map(|entry| entry.picture.get_pixel(x, y).0[channel]);
+            let (lo, hi) = values.fold((u8::MAX, 0), |(lo, hi), value| (lo.min(value), hi.max(value)));
+            f64::from(hi.saturating_sub(lo))
+        };
+        (0..3).map(channel).fold(0.0, f64::max)
     };
     // Sums over all rectangles from the top left corner give the sum over any square.
     let stride = width as usize + 1;
@@ -163,7 +144,7 @@ fn places(entries: &[Entry], width: u32, height: u32, side: u32) -> Vec<[u32; 2]
     for y in 0..height as usize {
         let mut row = 0.0;
         for x in 0..width as usize {
-            row += spread(y * width as usize + x);
+            row += spread(x as u32, y as u32);
             sums[(y + 1) * stride + x + 1] = sums[y * stride + x + 1] + row;
         }
     }
@@ -217,4 +198,33 @@ fn overlay(image: &mut RgbImage, top: i64, width: u32, height: u32, elements: &s
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn insets_go_where_pictures_differ_most() {
+        let grey = RgbImage::from_pixel(64, 64, Rgb([100; 3]));
+        let (mut a, mut b) = (grey.clone(), grey.clone());
+        // Many small differences weigh less than few large ones.
+        for x in 0..16 {
+            for y in 0..16 {
+                a.put_pixel(x, y, Rgb([101; 3]));
+                b.put_pixel(40 + x / 2, 44 + y / 2, Rgb([100, 0, 100]));
+            }
+        }
+        let entries = [a, b].map(|picture| Entry { label: String::new(), picture });
+        let places = places(&entries, 64, 64, 16);
+        let inside = |[x, y]: [u32; 2]| x <= 40 && x + 16 >= 48 && y <= 44 && y + 16 >= 52;
+        assert!(inside(places[0]) && places[1] == [0, 0], "{places:?}");
+    }
+
+    #[test]
+    fn equal_pictures_have_no_insets() {
+        let picture = RgbImage::from_pixel(32, 32, Rgb([9; 3]));
+        let entries = [picture.clone(), picture].map(|picture| Entry { label: String::new(), picture });
+        assert!(places(&entries, 32, 32, 8).is_empty());
+    }
 }

@@ -143,7 +143,7 @@ fn whole_shaders(tuning: &Tuning<'_>) -> Markup {
                 @for whole in &tuning.whole {
                     tr {
                         td { (whole.frame) }
-                        td { (whole.pass.name()) }
+                        td { (whole.pass) }
                         @for plan in 0..whole.times.len() { td.n { (format!("{:.3}", whole.vs_ladder(plan))) } }
                     }
                 }
@@ -151,7 +151,7 @@ fn whole_shaders(tuning: &Tuning<'_>) -> Markup {
             @for whole in &tuning.whole {
                 @let faster: Vec<String> = whole.faster_than(tuning.chosen).into_iter().map(name).collect();
                 @if !faster.is_empty() {
-                    p.bad { (whole.frame) ", " (whole.pass.name()) ": faster than the chosen plan: " (faster.join(", ")) }
+                    p.bad { (whole.frame) ", " (whole.pass) ": faster than the chosen plan: " (faster.join(", ")) }
                 }
             }
             @if tuning.whole.iter().all(|whole| whole.faster_than(tuning.chosen).is_empty()) {

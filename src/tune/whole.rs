@@ -2,27 +2,14 @@
 //!
 //! A table is a small part of a shader that also walks and reads. Whether the
 //! plan that was chosen by itself is a good choice there is measured on the real
-//! shadow pass, both as a compute and as a fragment pass.
+//! passes of the technique that the table is for.
 
 use super::Measured;
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::gpu::Gpu;
 use crate::gpu::timing::{Protocol, Stopwatch, Times, interleaved};
 use crate::program::Program;
-use crate::technique::revectorise::gpu::{GpuFrame, Output, Shader, Skeleton};
-use crate::technique::revectorise::{Settings, Technique};
-
-/// The kinds of passes.
-const PASSES: [Output; 2] = [Output::Compute, Output::Fragment];
-
-/// A frame to measure on.
-#[derive(Debug)]
-pub struct Frame {
-    /// The scene, and its sizes, in words.
-    pub name: String,
-    /// On the device.
-    pub frame: GpuFrame,
-}
+use crate::technique::prepared::{Detail, Pass};
+use crate::technique::{self, Ability, Frame, Technique};
 
 /// What was measured of a frame, in one kind of pass.
 #[derive(Debug, Clone)]
@@ -30,7 +17,7 @@ pub struct Whole {
     /// The scene, and its sizes, in words.
     pub frame: String,
     /// The kind of pass.
-    pub pass: Output,
+    pub pass: &'static str,
     /// Times of the whole pass, in the order of the plans.
     pub times: Vec<Times>,
 }
@@ -54,48 +41,55 @@ impl Whole {
     }
 }
 
-/// The technique whose pass a table is for.
+/// The technique that a table is for.
 ///
 /// # Errors
-/// When no renderer evaluates the table.
-pub fn technique(program: &Program) -> Result<Technique, Failure> {
-    let found = [Technique::Smsr, Technique::Rsmss].into_iter().find(|one| one.table() == Some(program.name.as_str()));
-    found.ok_or_else(|| {
-        let message = format!("no shadow pass evaluates the table `{}`", program.name);
+/// When no technique evaluates the table in passes that take any plan.
+pub fn technique(program: &Program) -> Result<&'static dyn Technique, Failure> {
+    let takes_plans = |technique: &&dyn Technique| technique.abilities().contains(&Ability::Plans);
+    let tables = |technique: &dyn Technique| technique.tables().iter().map(|table| table.name);
+    let mut found = technique::ALL.iter().copied().filter(takes_plans);
+    found.find(|technique| tables(*technique).any(|name| name == program.name)).ok_or_else(|| {
+        let message = format!("no technique evaluates the table `{}` in passes that take any plan", program.name);
         let error = Diagnostic::error(codes::NOT_APPLICABLE, message);
-        Failure::new(program.source.clone(), error.help("whole shaders are measured of the tables smsr and rsmss"))
+        let known: Vec<&str> =
+            technique::ALL.iter().copied().filter(takes_plans).flat_map(|technique| tables(technique)).collect();
+        let help = format!("whole shaders are measured of the tables {}", technique::and(&known));
+        Failure::new(program.source.clone(), error.help(help))
     })
 }
 
-/// Measures the pass with every plan in turn, frame by frame.
+/// Measures the passes of a frame with every plan in turn. `name` says which frame it is.
 ///
 /// # Errors
 /// When the device refuses a shader, or fails.
-pub fn whole(
-    gpu: &Gpu,
-    program: &Program,
-    plans: &[Measured<'_>],
-    frames: &[Frame],
+pub fn whole<'s>(
+    technique: &dyn Technique,
+    name: &str,
+    frame: &Frame<'s>,
+    plans: &'s [Measured<'s>],
     watch: &Stopwatch<'_>,
     protocol: Protocol,
 ) -> Result<Vec<Whole>, Failure> {
-    let technique = technique(program)?;
-    let settings = Settings::default();
-    let mut shaders = Vec::new();
-    for output in PASSES {
-        for plan in plans {
-            shaders.push(Shader::new(gpu, technique, Some(&plan.proved), Skeleton::FAST, output)?);
-        }
+    let mut prepared = Vec::new();
+    for plan in plans {
+        let mut frame = frame.clone();
+        frame.plans = vec![&plan.proved];
+        prepared.push(frame.prepare(technique)?);
     }
-    let mut measured = Vec::new();
-    for Frame { name, frame } in frames {
-        let bound: Result<Vec<_>, Failure> = shaders.iter().map(|shader| shader.bind(frame, &settings)).collect();
-        let bound = bound?;
-        let mut times = interleaved(protocol, bound.len(), |index| bound[index].time(watch))?;
-        let fragment = times.split_off(plans.len());
-        for (output, times) in PASSES.into_iter().zip([times, fragment]) {
-            measured.push(Whole { frame: name.clone(), pass: output, times });
-        }
+    let mut passes: Vec<Vec<Pass<'_>>> = Vec::new();
+    for prepared in &mut prepared {
+        passes.push(prepared.passes(Detail::Plain)?);
     }
-    Ok(measured)
+    // Every plan has the same passes: first all plans in one of them, then all in the next.
+    let kinds = passes.first().map_or(0, Vec::len);
+    let all: Vec<&Pass<'_>> =
+        (0..kinds).flat_map(|kind| passes.iter().filter_map(move |passes| passes.get(kind))).collect();
+    let mut times = interleaved(protocol, all.len(), |index| all[index].time(watch))?.into_iter();
+    let whole = |kind: &Pass<'_>| Whole {
+        frame: name.to_owned(),
+        pass: kind.name,
+        times: times.by_ref().take(plans.len()).collect(),
+    };
+    Ok(passes.first().into_iter().flatten().map(whole).collect())
 }

@@ -7,12 +7,8 @@ use umbrage::scene::Scene;
 use umbrage::technique::revectorise::gpu::{GpuFrame, Output, Raster, Shader, Skeleton};
 use umbrage::technique::revectorise::stage::{Bias, Stage};
 use umbrage::technique::revectorise::{
-    DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Technique, Visibility, cpu, max_slope,
+    DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Variant, Visibility, cpu, max_slope,
 };
-
-/// Techniques that are evaluated from a shadow map.
-const TECHNIQUES: [Technique; 6] =
-    [Technique::Hard, Technique::Pcf, Technique::Smsr, Technique::Rsmss, Technique::Rpcf, Technique::CaseFree];
 
 /// How far values may differ. Inputs of a table are sums of two exact numbers and a quotient below 1.5,
 /// which WGSL lets be 2.5 ulp off; each input enters a value once, and the value is a sum of three terms below 2.
@@ -51,7 +47,7 @@ fn noise(size: u32, pixels: u32, density: u32) -> (ShadowMap, Receivers) {
 
 /// Every technique with its table, compiled in the ways that must not differ.
 struct Executors<'g> {
-    programs: Vec<Option<Program>>,
+    programs: Vec<Option<&'static Program>>,
     shaders: Vec<(usize, Skeleton, Shader<'g>)>,
     /// As fast as possible: values only.
     fast: Vec<(usize, Output, Shader<'g>)>,
@@ -59,18 +55,17 @@ struct Executors<'g> {
 
 impl<'g> Executors<'g> {
     fn new(gpu: &'g Gpu) -> Self {
-        let programs: Vec<Option<Program>> =
-            TECHNIQUES.iter().map(|technique| cpu::table(*technique).unwrap()).collect();
+        let programs: Vec<_> = Variant::ALL.iter().map(|variant| variant.program().unwrap()).collect();
         let mut shaders = Vec::new();
         let mut fast = Vec::new();
         for (index, program) in programs.iter().enumerate() {
-            let proved = program.as_ref().map(|program| Plan::proved(program, Shape::Ladder).unwrap());
+            let proved = program.map(|program| Plan::proved(program, Shape::Ladder).unwrap());
             for skeleton in [Skeleton::EXACT, Skeleton::PUBLISHED] {
-                let shader = Shader::new(gpu, TECHNIQUES[index], proved.as_ref(), skeleton, Output::Record);
+                let shader = Shader::new(gpu, Variant::ALL[index], proved.as_ref(), skeleton, Output::Record);
                 shaders.push((index, skeleton, shader.unwrap_or_else(|error| panic!("{error}"))));
             }
             for output in [Output::Compute, Output::Fragment] {
-                let shader = Shader::new(gpu, TECHNIQUES[index], proved.as_ref(), Skeleton::FAST, output);
+                let shader = Shader::new(gpu, Variant::ALL[index], proved.as_ref(), Skeleton::FAST, output);
                 fast.push((index, output, shader.unwrap_or_else(|error| panic!("{error}"))));
             }
         }
@@ -88,10 +83,10 @@ impl<'g> Executors<'g> {
         thorough: bool,
     ) {
         let frame = GpuFrame::new(gpu, map, receivers).unwrap_or_else(|error| panic!("{error}"));
-        for (index, technique) in TECHNIQUES.into_iter().enumerate() {
-            let program = self.programs[index].as_ref();
+        for (index, technique) in Variant::ALL.into_iter().enumerate() {
+            let program = self.programs[index];
             let expected =
-                cpu::visibility(technique, program, cpu::Frame { map, receivers, settings }, &|_| {}).unwrap();
+                cpu::visibility(technique, program, cpu::Query { map, receivers, settings }, &|_| {}).unwrap();
             for (_, skeleton, shader) in self.shaders.iter().filter(|(of, ..)| *of == index) {
                 if thorough || *skeleton == Skeleton::EXACT {
                     let (found, _) = shader.record(&frame, settings).unwrap_or_else(|error| panic!("{error}"));

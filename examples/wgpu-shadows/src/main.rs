@@ -33,7 +33,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use umbrage::scene::Scene;
-use umbrage::technique::revectorise::Technique;
+use umbrage::technique::revectorise::Variant;
 
 use shaders::PLANS;
 use view::{TECHNIQUES, View};
@@ -52,7 +52,7 @@ struct Arguments {
     scene: String,
     /// The technique to begin with: hard, pcf, smsr, rsmss, rpcf
     #[arg(long, value_name = "NAME", default_value = "rsmss", value_parser = technique)]
-    technique: Technique,
+    technique: Variant,
     /// The plan of the table to begin with: ladder, ordered, gathered, switch, tree
     #[arg(long, value_name = "NAME", default_value = "ladder", value_parser = plan)]
     plan: usize,
@@ -93,9 +93,9 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     }
 }
 
-fn technique(name: &str) -> Result<Technique, String> {
-    let found = Technique::from_name(name).filter(|technique| TECHNIQUES.contains(technique));
-    let known = || TECHNIQUES.map(Technique::name).join(", ");
+fn technique(name: &str) -> Result<Variant, String> {
+    let found = Variant::from_name(name).filter(|technique| TECHNIQUES.contains(technique));
+    let known = || TECHNIQUES.map(Variant::name).join(", ");
     found.ok_or_else(|| format!("there is no such technique; the techniques are: {}", known()))
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use umbrage::picture::sheet;
 use umbrage::scene::Scene;
 use umbrage::scene::light::Punctual;
-use umbrage::technique::revectorise::{Settings, Technique};
+use umbrage::technique::revectorise::{Settings, Variant};
 use wgpu::util::DeviceExt;
 
 use crate::feedback::{CASES, Collector};
@@ -27,7 +27,7 @@ const SEEN: [wgpu::TextureFormat; 3] =
     [wgpu::TextureFormat::Rgba32Float, wgpu::TextureFormat::Rg32Float, wgpu::TextureFormat::Rgba16Float];
 
 /// A last pass is made for each of these.
-type Key = (Technique, usize, bool);
+type Key = (Variant, usize, bool);
 
 /// A scene on a device.
 pub(crate) struct Renderer {

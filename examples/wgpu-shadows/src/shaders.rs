@@ -8,7 +8,7 @@ use std::time::SystemTime;
 use umbrage::build::{self, Options, Request};
 use umbrage::emit::Target;
 use umbrage::plan::Shape;
-use umbrage::technique::revectorise::Technique;
+use umbrage::technique::revectorise::Variant;
 
 /// The plans to choose from. The build script makes the same.
 pub(crate) const PLANS: [Shape; 5] = [Shape::Ladder, Shape::Ordered, Shape::Gathered, Shape::Switch, Shape::Tree];
@@ -122,23 +122,23 @@ impl Tables {
     }
 
     /// The table of a technique, if it has one.
-    pub(crate) fn of(&self, technique: Technique) -> Option<&Table> {
+    pub(crate) fn of(&self, technique: Variant) -> Option<&Table> {
         self.0.get(technique.table()?)
     }
 
     /// A plan where it suits the table of a technique, the first one elsewhere.
-    pub(crate) fn suitable(&self, technique: Technique, plan: usize) -> usize {
+    pub(crate) fn suitable(&self, technique: Variant, plan: usize) -> usize {
         if self.of(technique).is_some_and(|table| table.suits(plan)) { plan } else { 0 }
     }
 
     /// The WGSL of the last pass.
-    pub(crate) fn text(&self, technique: Technique, plan: usize) -> String {
+    pub(crate) fn text(&self, technique: Variant, plan: usize) -> String {
         let table = self.of(technique).and_then(|table| table.modules[plan].as_deref()).unwrap_or_default();
         let own = match technique {
-            Technique::Hard => skeleton!("hard"),
-            Technique::Smsr => concat!(skeleton!("smsr", "single"), include_str!("wgsl/smsr_key.wgsl")),
-            Technique::Rsmss => concat!(skeleton!("rsmss", "single"), include_str!("wgsl/rsmss_key.wgsl")),
-            Technique::Rpcf => concat!(skeleton!("rsmss", "rpcf"), include_str!("wgsl/rsmss_key.wgsl")),
+            Variant::Hard => skeleton!("hard"),
+            Variant::Smsr => concat!(skeleton!("smsr", "single"), include_str!("wgsl/smsr_key.wgsl")),
+            Variant::Rsmss => concat!(skeleton!("rsmss", "single"), include_str!("wgsl/rsmss_key.wgsl")),
+            Variant::Rpcf => concat!(skeleton!("rsmss", "rpcf"), include_str!("wgsl/rsmss_key.wgsl")),
             _ => skeleton!("pcf"),
         };
         let search = if table.is_empty() { "" } else { SEARCH };

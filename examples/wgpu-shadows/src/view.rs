@@ -4,11 +4,10 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use umbrage::scene::view::Camera;
-use umbrage::technique::revectorise::Technique;
+use umbrage::technique::revectorise::Variant;
 
 /// The techniques to choose from, the cheapest first.
-pub(crate) const TECHNIQUES: [Technique; 5] =
-    [Technique::Hard, Technique::Pcf, Technique::Smsr, Technique::Rsmss, Technique::Rpcf];
+pub(crate) const TECHNIQUES: [Variant; 5] = [Variant::Hard, Variant::Pcf, Variant::Smsr, Variant::Rsmss, Variant::Rpcf];
 
 /// What is to be seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +19,7 @@ pub(crate) struct View {
     around: f64,
     above: f64,
     distance: f64,
-    pub(crate) technique: Technique,
+    pub(crate) technique: Variant,
     /// Index among the plans.
     pub(crate) plan: usize,
     /// Whether cases are shown in colours.
@@ -37,7 +36,7 @@ impl View {
             around: away.x.atan2(away.z),
             above: away.y.atan2(away.x.hypot(away.z)),
             distance: away.length(),
-            technique: Technique::Rsmss,
+            technique: Variant::Rsmss,
             plan: 0,
             cases: false,
         }

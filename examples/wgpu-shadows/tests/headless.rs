@@ -7,9 +7,9 @@ use std::process::{Command, Output};
 use image::RgbImage;
 use umbrage::picture::srgb;
 use umbrage::scene::Scene;
-use umbrage::technique::revectorise::cpu::{self, Frame};
+use umbrage::technique::revectorise::cpu::{self, Query};
 use umbrage::technique::revectorise::stage::{Bias, Stage};
-use umbrage::technique::revectorise::{Settings, Technique};
+use umbrage::technique::revectorise::{Settings, Variant};
 use umbrage::technique::shade;
 
 const TABLE: &str = include_str!("../../../tables/rsmss.ron");
@@ -76,7 +76,7 @@ fn techniques_plans_and_cases() {
 #[test]
 fn pictures_are_those_of_the_reference() {
     let place = tempfile::tempdir().unwrap();
-    for (scene, technique) in [("fence", Technique::Rsmss), ("teapot", Technique::Smsr), ("lattice", Technique::Hard)] {
+    for (scene, technique) in [("fence", Variant::Rsmss), ("teapot", Variant::Smsr), ("lattice", Variant::Hard)] {
         let Some((seen, _)) = picture(place.path(), &format!("--scene {scene} --technique {technique}")) else {
             return;
         };
@@ -84,10 +84,10 @@ fn pictures_are_those_of_the_reference() {
         let stage = Stage::new(&scene).unwrap_or_else(|error| panic!("{error}"));
         let (picture, map) = (stage.surfaces(320, 180), stage.shadow_map(128, Bias::default()));
         let receivers = stage.receivers(&picture, 128);
-        let frame = Frame { map: &map, receivers: &receivers, settings: &Settings::default() };
-        let program = cpu::table(technique).unwrap();
-        let visibility = cpu::visibility(technique, program.as_ref(), frame, &|_| {}).unwrap();
-        let expected = srgb::encode(&shade::shade(&stage, &picture, &visibility.value));
+        let query = Query { map: &map, receivers: &receivers, settings: &Settings::default() };
+        let program = technique.program().unwrap();
+        let visibility = cpu::visibility(technique, program, query, &|_| {}).unwrap();
+        let expected = srgb::encode(&shade::shade(&scene, &stage.light, &picture, &visibility.value));
         let apart = differ(&seen, &expected);
         assert!(apart < 320 * 180 / 1000, "{}: {apart} pixels differ", scene.name);
     }

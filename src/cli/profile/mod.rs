@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::args::{Machine, SettingArguments, TechniqueArgument, parse_map, parse_size, technique_parser};
 use super::messages::Report;
 use super::output::Sink;
-use super::render::frame::{Backend, parse_map, parse_size, parse_technique};
 use super::{Outcome, Result, input};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, Fitted, Profile, Scene};
@@ -42,26 +42,19 @@ struct Count {
     /// Scenes to render and count: names of built-in ones, or files
     #[arg(long, value_name = "SCENE", value_delimiter = ',', conflicts_with = "frames")]
     scene: Vec<String>,
-    /// The technique to render with: smsr, rsmss, rpcf
-    #[arg(long, value_name = "TECHNIQUE", default_value = "rsmss", value_parser = parse_technique)]
-    technique: crate::technique::revectorise::Technique,
+    /// The technique to render with, one with a table of cases
+    #[arg(long, value_name = "TECHNIQUE", default_value = "rsmss", value_parser = technique_parser())]
+    technique: TechniqueArgument,
     /// Size of the picture
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "960x540", value_parser = parse_size)]
     size: (u32, u32),
     /// Texels per side of the shadow map
     #[arg(long, value_name = "TEXELS", default_value = "1024", value_parser = parse_map)]
     shadow_map: u32,
-    /// Longest run that is revectorised, in texels
-    #[arg(long, value_name = "TEXELS", default_value_t = crate::technique::revectorise::Settings::default().search_limit,
-          value_parser = clap::value_parser!(u32).range(1..=4096))]
-    search_limit: u32,
-    /// What counts: gpu uses counters of the device, and finds the same
-    #[arg(long, value_enum, default_value = "cpu", value_name = "WHAT")]
-    backend: Backend,
-    /// The adapter: any, software, hardware, or a part of its name
-    #[cfg(feature = "gpu")]
-    #[arg(long, value_name = "WHICH", default_value = "any")]
-    adapter: crate::gpu::AdapterChoice,
+    #[command(flatten)]
+    machine: Machine,
+    #[command(flatten)]
+    settings: SettingArguments,
     /// The table [default for scenes: that of the technique]
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,

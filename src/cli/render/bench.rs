@@ -1,23 +1,22 @@
 //! `umbrage bench`: what each technique's visibility pass costs on this device.
 
 use std::io::{self, Write};
+use std::sync::Arc;
 
 use comfy_table::{CellAlignment, Table, presets};
 use serde_json::json;
 
-use super::frame::{parse_map, parse_size};
+use crate::cli::args::{Set, TechniqueArgument, parse_map, parse_size, technique_parser};
 use crate::cli::messages::{Format, Report};
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result, parse_shape};
-use crate::gpu::timing::{Clock, Protocol};
+use crate::gpu::timing::{Clock, Protocol, Stopwatch, Times, interleaved};
 use crate::gpu::{AdapterChoice, Gpu};
-use crate::plan::{Plan, Shape};
+use crate::plan::Shape;
 use crate::scene::Scene;
-use crate::technique::revectorise::gpu::bench;
-use crate::technique::revectorise::gpu::bench::Measured;
-use crate::technique::revectorise::gpu::{GpuFrame, Raster};
-use crate::technique::revectorise::stage::{Bias, Stage};
-use crate::technique::revectorise::{Settings, Technique, cpu};
+use crate::technique::prepared::{Detail, Pass};
+use crate::technique::setting::Value;
+use crate::technique::{self, Ability, Executor, Frame, Prepared, Settings};
 
 /// Arguments of `umbrage bench`.
 #[derive(clap::Args)]
@@ -25,6 +24,10 @@ pub(in crate::cli) struct Arguments {
     /// The scene: a name as `umbrage scenes` lists it, or a file
     #[arg(long, value_name = "SCENE", default_value = "foliage")]
     scene: String,
+    /// The techniques [default: all with passes that can be measured]; times are relative to the first
+    #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = technique_parser(),
+          hide_possible_values = true)]
+    techniques: Vec<TechniqueArgument>,
     /// Sizes of the picture [default: 1920x1080,3840x2160; on a software adapter 960x540]
     #[arg(long, value_name = "WxH", value_delimiter = ',', value_parser = parse_size)]
     size: Vec<(u32, u32)>,
@@ -34,13 +37,14 @@ pub(in crate::cli) struct Arguments {
     /// The adapter: any, software, hardware, or a part of its name
     #[arg(long, value_name = "WHICH", default_value = "any")]
     adapter: AdapterChoice,
-    /// The code shape of the tables
-    #[arg(long, value_name = "PLAN", default_value = "ladder", value_parser = parse_shape)]
-    plan: Shape,
-    /// Longest run that is revectorised, in texels
-    #[arg(long, value_name = "TEXELS", default_value_t = Settings::default().search_limit,
-          value_parser = clap::value_parser!(u32).range(1..=4096))]
-    search_limit: u32,
+    /// The code shape of the tables [default: ladder]
+    #[arg(long, value_name = "PLAN", value_parser = parse_shape)]
+    plan: Option<Shape>,
+    /// Longest run that is revectorised, in texels [default: 128]
+    #[arg(long, value_name = "TEXELS", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    search_limit: Option<u32>,
+    #[command(flatten)]
+    set: Set,
     /// Measurements of each pass
     #[arg(long, value_name = "COUNT", default_value_t = 15,
           value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=10_000))]
@@ -54,34 +58,50 @@ pub(in crate::cli) struct Arguments {
 /// Measures every size of picture with every size of map.
 pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let scene = Scene::open(&arguments.scene)?;
-    let gpu = Gpu::open(&arguments.adapter)?;
+    let techniques = techniques(arguments, &scene)?;
+    let settings = settings(arguments, &techniques)?;
+    let gpu = Arc::new(Gpu::open(&arguments.adapter)?);
     let sizes = match arguments.size.as_slice() {
         [] if gpu.is_software() => &[(960, 540)],
         [] => [(1920, 1080), (3840, 2160)].as_slice(),
         sizes => sizes,
     };
-    let programs = [cpu::table(Technique::Smsr)?, cpu::table(Technique::Rsmss)?];
-    let [Some(smsr), Some(rsmss)] = &programs else { return Ok(Outcome::Failed) };
-    let proved = [Plan::proved(smsr, arguments.plan)?, Plan::proved(rsmss, arguments.plan)?];
-    let subjects = bench::subjects(&proved[0], &proved[1]);
-    let settings = Settings { search_limit: arguments.search_limit, ..Settings::default() };
+    let executor = Executor::Gpu(Arc::clone(&gpu));
     let protocol = Protocol { warm_up: arguments.warm_up, rounds: arguments.rounds };
-    let stage = Stage::new(&scene)?;
-    let raster = Raster::new(&gpu, &stage)?;
+    let stopwatch = Stopwatch::new(&gpu);
+    let frames: Vec<Frame<'_>> = sizes.iter().map(|size| Frame::new(&scene, *size, &executor)).collect();
+    let mut prepared: Vec<Box<dyn Prepared<'_> + '_>> = Vec::new();
     let mut out = io::stdout().lock();
     for &size in &arguments.shadow_map {
-        let map = raster.shadow_map(size, Bias::default())?;
-        for &(width, height) in sizes {
-            let frame = GpuFrame::new(&gpu, &map, &raster.picture(width, height, size)?.receivers)?;
-            let progress = Progress::new(((protocol.warm_up + protocol.rounds) * 2 * subjects.len()) as u64);
+        for frame in &frames {
+            let sized = techniques.iter().flat_map(|technique| technique.settings());
+            let frame = match sized.clone().find(|setting| setting.name == "shadow_map") {
+                Some(setting) => frame.with(settings.with(setting, Value::Whole(size))),
+                None => frame.with(settings.clone()),
+            };
+            for (index, technique) in techniques.iter().enumerate() {
+                match prepared.get_mut(index) {
+                    Some(prepared) => prepared.set_frame(&frame)?,
+                    None => prepared.push(frame.prepare(*technique)?),
+                }
+            }
+            let mut passes = Vec::new();
+            for prepared in &mut prepared {
+                passes.extend(prepared.passes(Detail::Variants)?);
+            }
+            let (width, height) = frame.size();
+            let progress = Progress::new(((protocol.warm_up + protocol.rounds) * passes.len()) as u64);
             progress.begin(&format!("{width}x{height}, map {size}"));
-            let (clock, measured) =
-                bench::measure(&gpu, &subjects, &frame, &settings, protocol, || progress.advance(1))?;
+            let times = interleaved(protocol, passes.len(), |index| {
+                progress.advance(1);
+                passes[index].time(&stopwatch)
+            })?;
             drop(progress);
-            let frame = Frame { scene: &scene.name, width, height, size };
+            let measured: Vec<(Pass<'_>, Times)> = passes.into_iter().zip(times).collect();
+            let subject = Subject { gpu: &gpu, clock: stopwatch.clock(), scene: &scene.name, width, height, size };
             match report.format {
-                Format::Human => human(&mut out, &gpu, clock, &frame, &measured)?,
-                Format::Json => writeln!(out, "{}", json(&gpu, clock, &frame, &measured))?,
+                Format::Human => human(&mut out, &subject, &measured)?,
+                Format::Json => writeln!(out, "{}", json(&subject, &measured))?,
             }
             out.flush()?;
         }
@@ -89,69 +109,112 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
     Ok(Outcome::Clean)
 }
 
+/// The techniques that are measured: those that were named, or all that can be measured in the scene.
+fn techniques(arguments: &Arguments, scene: &Scene) -> Result<Vec<TechniqueArgument>> {
+    for technique in &arguments.techniques {
+        technique::require(*technique, Ability::Passes, "bench")?;
+    }
+    if !arguments.techniques.is_empty() {
+        return Ok(arguments.techniques.clone());
+    }
+    let fits = |technique: &TechniqueArgument| {
+        technique.abilities().contains(&Ability::Passes) && technique.lights().of_scene(scene, technique.name()).is_ok()
+    };
+    Ok(technique::ALL.iter().copied().filter(fits).collect())
+}
+
+/// The settings for these techniques; an option is left out where none of them has such a setting.
+fn settings(arguments: &Arguments, techniques: &[TechniqueArgument]) -> Result<Settings> {
+    let mut settings = arguments.set.read(techniques)?;
+    let declared = || techniques.iter().flat_map(|technique| technique.settings());
+    let limit = arguments.search_limit.map(Value::Whole);
+    for (name, value) in [("plan", arguments.plan.map(Value::Plan)), ("search_limit", limit)] {
+        if let (Some(setting), Some(value)) = (declared().find(|setting| setting.name == name), value) {
+            settings.set(setting, value);
+        }
+    }
+    Ok(settings)
+}
+
 /// What was measured on.
-struct Frame<'a> {
+struct Subject<'a> {
+    gpu: &'a Gpu,
+    clock: Clock,
     scene: &'a str,
     width: u32,
     height: u32,
     size: u32,
 }
 
-/// The time of a subject relative to the plain depth test in the same kind of pass.
-fn vs_hard(measured: &[Measured], one: &Measured) -> f64 {
-    let hard = measured.iter().find(|other| other.name == "hard" && other.output == one.output);
-    one.times.median() / hard.map_or(f64::NAN, |hard| hard.times.median())
+/// The first subject: the others are compared with it.
+fn first(measured: &[(Pass<'_>, Times)]) -> &'static str {
+    measured.first().map_or("first", |(pass, _)| pass.variant)
 }
 
-fn human(out: &mut impl Write, gpu: &Gpu, clock: Clock, frame: &Frame<'_>, measured: &[Measured]) -> Result<()> {
-    let Frame { scene, width, height, size } = frame;
+/// The time relative to the first subject in the same kind of pass.
+fn vs_first(measured: &[(Pass<'_>, Times)], pass: &Pass<'_>, times: &Times) -> f64 {
+    let first = measured.iter().find(|(other, _)| other.name == pass.name);
+    times.median() / first.map_or(f64::NAN, |(_, first)| first.median())
+}
+
+fn human(out: &mut impl Write, subject: &Subject<'_>, measured: &[(Pass<'_>, Times)]) -> Result<()> {
+    let Subject { gpu, clock, scene, width, height, size } = subject;
     writeln!(out, "{scene}, {width}x{height}, shadow map {size}; {}; {clock}", gpu.describe())?;
     let mut table = Table::new();
     table.load_preset(presets::NOTHING);
-    let columns = ["technique", "pass", "ms", "± ms", "vs hard", "reads", "most", "steps", "group steps", "walking"];
+    let vs = format!("vs {}", first(measured));
+    let columns = ["technique", "pass", "ms", "± ms", &vs, "reads", "most", "steps", "group steps", "walking"];
     table.set_header(columns);
-    for one in measured {
-        let costs = &one.costs;
-        table.add_row([
-            one.name.to_owned(),
-            one.output.name().to_owned(),
-            format!("{:.3}", one.times.median() * 1e3),
-            format!("{:.3}", one.times.uncertainty() * 1e3),
-            format!("{:.2}", vs_hard(measured, one)),
-            format!("{:.2}", costs.reads),
-            costs.most_reads.to_string(),
-            format!("{:.3}", costs.steps),
-            format!("{:.2}", costs.group_steps),
-            format!("{:.1} %", 100.0 * costs.walking),
-        ]);
+    for (pass, times) in measured {
+        let time = [
+            pass.variant.to_owned(),
+            pass.name.to_owned(),
+            format!("{:.3}", times.median() * 1e3),
+            format!("{:.3}", times.uncertainty() * 1e3),
+            format!("{:.2}", vs_first(measured, pass, times)),
+        ];
+        let costs = pass.costs.map_or_else(Default::default, |costs| {
+            [
+                format!("{:.2}", costs.reads),
+                costs.most_reads.to_string(),
+                format!("{:.3}", costs.steps),
+                format!("{:.2}", costs.group_steps),
+                format!("{:.1} %", 100.0 * costs.walking),
+            ]
+        });
+        table.add_row(time.into_iter().chain(costs));
     }
     table.column_iter_mut().skip(2).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
     writeln!(out, "{}", table.trim_fmt())?;
     Ok(())
 }
 
-fn json(gpu: &Gpu, clock: Clock, frame: &Frame<'_>, measured: &[Measured]) -> serde_json::Value {
-    let passes = measured.iter().map(|one| {
-        json!({
-            "technique": one.name,
-            "pass": one.output.name(),
-            "ms": one.times.median() * 1e3,
-            "uncertainty_ms": one.times.uncertainty() * 1e3,
-            "vs_hard": vs_hard(measured, one),
-            "reads_per_pixel": one.costs.reads,
-            "most_reads": one.costs.most_reads,
-            "steps_per_pixel": one.costs.steps,
-            "steps_per_group": one.costs.group_steps,
-            "walking": one.costs.walking,
-        })
+fn json(subject: &Subject<'_>, measured: &[(Pass<'_>, Times)]) -> serde_json::Value {
+    let vs = format!("vs_{}", first(measured));
+    let passes = measured.iter().map(|(pass, times)| {
+        let mut object = json!({
+            "technique": pass.variant,
+            "pass": pass.name,
+            "ms": times.median() * 1e3,
+            "uncertainty_ms": times.uncertainty() * 1e3,
+            &vs: vs_first(measured, pass, times),
+        });
+        if let Some(costs) = pass.costs {
+            object["reads_per_pixel"] = json!(costs.reads);
+            object["most_reads"] = json!(costs.most_reads);
+            object["steps_per_pixel"] = json!(costs.steps);
+            object["steps_per_group"] = json!(costs.group_steps);
+            object["walking"] = json!(costs.walking);
+        }
+        object
     });
     json!({
-        "device": gpu.describe(),
-        "clock": clock.to_string(),
-        "scene": frame.scene,
-        "width": frame.width,
-        "height": frame.height,
-        "shadow_map": frame.size,
+        "device": subject.gpu.describe(),
+        "clock": subject.clock.to_string(),
+        "scene": subject.scene,
+        "width": subject.width,
+        "height": subject.height,
+        "shadow_map": subject.size,
         "passes": passes.collect::<Vec<_>>(),
     })
 }

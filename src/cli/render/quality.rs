@@ -5,22 +5,20 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use super::frame::{FrameArguments, parse_map, parse_size, parse_technique};
+use crate::cli::args::{
+    Backend, Machine, SettingArguments, TechniqueArgument, parse_map, parse_size, technique_parser,
+};
 use crate::cli::input::has_extension;
 use crate::cli::messages::{Format, Report};
 use crate::cli::output::Sink;
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::picture::compare;
-use crate::picture::compare::{Difference, NEAR, Region};
+use crate::picture::compare::{self, Difference, NEAR, Region};
 use crate::picture::{self, plot};
 use crate::scene::Scene;
-use crate::technique::executor::Executor;
-use crate::technique::revectorise::Technique;
-use crate::technique::revectorise::reference;
-use crate::technique::revectorise::reference::Samples;
-use crate::technique::revectorise::stage::Stage;
+use crate::technique::rendered::VALUE;
+use crate::technique::{self, Executor, Frame, Prepared, Rendered, shade};
 use crate::text::file::shown;
 
 /// Arguments of `umbrage quality`.
@@ -29,9 +27,10 @@ pub(in crate::cli) struct Arguments {
     /// The scenes, names or scene files [default: all that come with Umbrage]
     #[arg(long, value_name = "SCENES", value_delimiter = ',')]
     scenes: Vec<String>,
-    /// The techniques [default: all]
-    #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = parse_technique)]
-    techniques: Vec<Technique>,
+    /// The techniques [default: all that a true picture is known for]
+    #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = technique_parser(),
+          hide_possible_values = true)]
+    techniques: Vec<TechniqueArgument>,
     /// Sizes of the shadow map
     #[arg(long, value_name = "TEXELS", value_delimiter = ',', default_value = "256,512,1024,2048,4096", value_parser = parse_map)]
     shadow_maps: Vec<u32>,
@@ -45,14 +44,16 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     #[command(flatten)]
-    frame: FrameArguments,
+    machine: Machine,
+    #[command(flatten)]
+    settings: SettingArguments,
 }
 
 /// The errors of one technique.
 struct Row {
     scene: String,
     map: u32,
-    technique: Technique,
+    technique: TechniqueArgument,
     all: Difference,
     near: Difference,
 }
@@ -67,6 +68,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         let error = Diagnostic::error(codes::RENDER, message).help("name it *.svg or *.png");
         return Err(Failure::bare("", error).into());
     }
+    let techniques = techniques(arguments)?;
     let open = |name: &str| Scene::open(name);
     let scenes: std::result::Result<Vec<Scene>, Failure> = if arguments.scenes.is_empty() {
         // Of the scenes that come with Umbrage, those with a light that has a shadow map.
@@ -77,8 +79,8 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
     let scenes = scenes?;
     let json_sink = arguments.json.as_deref().map(Sink::create).transpose()?;
     let plot_sink = arguments.plot.as_deref().map(Sink::create).transpose()?;
-    let executor = arguments.frame.executor(report)?;
-    let rows = measure(arguments, &scenes, &executor)?;
+    let executor = arguments.machine.executor(Backend::Auto, report)?;
+    let rows = measure(arguments, &techniques, &scenes, &executor)?;
 
     let object = || json(arguments, &executor, &rows);
     if let Some(mut sink) = json_sink {
@@ -86,7 +88,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         sink.finish()?;
     }
     if let Some(mut sink) = plot_sink {
-        let svg = draw(arguments, &scenes, &rows);
+        let svg = draw(arguments, &techniques, &scenes, &rows);
         let as_png = arguments.plot.as_deref().is_some_and(|path| has_extension(path, "png"));
         let bytes = if as_png { picture::png(&picture::raster(&svg, 1.0)?)? } else { svg.into_bytes() };
         sink.write_all(&bytes).map_err(|error| sink.failure(&error))?;
@@ -97,60 +99,94 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         Format::Json => writeln!(out, "{}", object())?,
         Format::Human => {
             for scene in &scenes {
-                table(&mut out, arguments, scene, &rows)?;
+                table(&mut out, arguments, &techniques, scene, &rows)?;
             }
-            verdicts(&mut out, arguments, &scenes, &rows)?;
+            verdicts(&mut out, arguments, &techniques, &scenes, &rows)?;
         }
     }
     Ok(Outcome::Clean)
 }
 
-/// The techniques that are measured, the reference never being one.
-fn techniques(arguments: &Arguments) -> Vec<Technique> {
-    let asked = match arguments.techniques.is_empty() {
-        true => Technique::ALL.to_vec(),
-        false => arguments.techniques.clone(),
-    };
-    asked.into_iter().filter(|technique| *technique != Technique::Reference).collect()
+/// The techniques that are measured, true pictures left out.
+fn techniques(arguments: &Arguments) -> std::result::Result<Vec<TechniqueArgument>, Failure> {
+    let asked = if arguments.techniques.is_empty() { technique::ALL } else { &arguments.techniques };
+    let measured: Vec<TechniqueArgument> =
+        asked.iter().copied().filter(|technique| technique.truth().is_some()).collect();
+    if measured.is_empty() {
+        let message = "no true picture is known for the techniques that were named";
+        let with = technique::names(|technique| technique.truth().is_some());
+        let error = Diagnostic::error(codes::NOT_APPLICABLE, message);
+        return Err(Failure::bare("", error.help(format!("techniques with one are {}", technique::and(&with)))));
+    }
+    Ok(measured)
 }
 
-fn measure(arguments: &Arguments, scenes: &[Scene], executor: &Executor) -> std::result::Result<Vec<Row>, Failure> {
-    let (width, height) = arguments.size;
-    let techniques = techniques(arguments);
-    // The truth takes as long as many techniques.
-    let per_scene = 2 + arguments.shadow_maps.len() * (techniques.len() + 1);
-    let progress = Progress::new(u64::from(height) * (per_scene * scenes.len()) as u64);
-    let settings = arguments.frame.settings();
+/// The true pictures of a scene, by the name of the technique that makes them.
+type Truths = Vec<(&'static str, Vec<f32>)>;
+
+fn measure(
+    arguments: &Arguments,
+    techniques: &[TechniqueArgument],
+    scenes: &[Scene],
+    executor: &Executor,
+) -> std::result::Result<Vec<Row>, Failure> {
+    let height = u64::from(arguments.size.1);
+    let per_scene = 2 + arguments.shadow_maps.len() * techniques.len();
+    let progress = Progress::new(height * (per_scene * scenes.len()) as u64);
+    let advance = |rows| progress.advance(rows);
+    let mut prepared: Vec<Option<Box<dyn Prepared<'_> + '_>>> = techniques.iter().map(|_| None).collect();
     let mut rows = Vec::new();
     for scene in scenes {
-        progress.begin(&format!("{}, reference", scene.name));
-        let stage = Stage::new(scene)?;
-        let picture = stage.surfaces(width, height);
-        let advance = |steps| progress.advance(steps);
-        let truth = reference::visibility(&stage, &picture, Samples::default(), &advance);
-        let (all, near) = (Region::surfaces(&picture), Region::silhouettes(&picture, &truth));
-        for map_size in &arguments.shadow_maps {
-            progress.begin(&format!("{}, {map_size}", scene.name));
-            let map = stage.shadow_map(*map_size, arguments.frame.bias());
-            let receivers = stage.receivers(&picture, *map_size);
-            progress.advance(u64::from(height));
-            for technique in &techniques {
-                let seen = executor.visibility(*technique, &map, &receivers, &settings, &advance)?;
-                let difference = |region| compare::difference(&picture, &seen.value, &truth, region);
-                rows.push(Row {
-                    scene: scene.name.clone(),
-                    map: *map_size,
-                    technique: *technique,
-                    all: difference(&all),
-                    near: difference(&near),
-                });
+        let mut frame = Frame::new(scene, arguments.size, executor);
+        // Maps are the same on every machine, and so are the errors.
+        frame.by_rays = true;
+        progress.advance(height);
+        let mut truths = Truths::new();
+        for name in techniques.iter().filter_map(|technique| technique.truth()) {
+            if truths.iter().all(|(known, _)| *known != name) {
+                progress.begin(&format!("{}, {name}", scene.name));
+                let truth = technique::from_name(name)?;
+                let rendered = frame.prepare(truth)?.render(&advance)?;
+                truths.push((name, value(truth, &rendered)?.to_vec()));
+            }
+        }
+        for map in &arguments.shadow_maps {
+            progress.begin(&format!("{}, {map}", scene.name));
+            let frame = frame.with(arguments.settings.read(techniques, Some(*map))?);
+            for (technique, prepared) in techniques.iter().zip(&mut prepared) {
+                let truth = truths.iter().find(|(name, _)| technique.truth() == Some(*name));
+                let truth = truth.map_or(&[][..], |(_, truth)| truth);
+                let ready = match prepared {
+                    Some(ready) => {
+                        ready.set_frame(&frame)?;
+                        ready
+                    }
+                    None => prepared.insert(frame.prepare(*technique)?),
+                };
+                let rendered = ready.render(&advance)?;
+                let value = value(*technique, &rendered)?;
+                let weights = shade::contribution(&scene.punctual(technique.name())?, &frame.surfaces);
+                let regions = [
+                    Region::surfaces(&frame.surfaces, &weights),
+                    Region::silhouettes(&frame.surfaces, &weights, truth),
+                ];
+                let [all, near] = regions.map(|region| compare::difference(&frame.surfaces, value, truth, &region));
+                rows.push(Row { scene: scene.name.clone(), map: *map, technique: *technique, all, near });
             }
         }
     }
     Ok(rows)
 }
 
-fn find<'r>(rows: &'r [Row], scene: &Scene, map: u32, technique: Technique) -> Option<&'r Row> {
+/// The visibility that a technique rendered.
+fn value(technique: TechniqueArgument, rendered: &Rendered) -> std::result::Result<&[f32], Failure> {
+    rendered.numbers(VALUE).ok_or_else(|| {
+        let error = Diagnostic::error(codes::NOT_APPLICABLE, format!("`{technique}` renders no visibility"));
+        Failure::bare("", error.help("errors are measured of the share of light that reaches each pixel"))
+    })
+}
+
+fn find<'r>(rows: &'r [Row], scene: &Scene, map: u32, technique: TechniqueArgument) -> Option<&'r Row> {
     rows.iter().find(|row| row.scene == scene.name && row.map == map && row.technique == technique)
 }
 
@@ -170,8 +206,13 @@ fn json(arguments: &Arguments, executor: &Executor, rows: &[Row]) -> Value {
 }
 
 /// The errors in one scene: a line per map size, a column per technique.
-fn table(out: &mut impl Write, arguments: &Arguments, scene: &Scene, rows: &[Row]) -> Result<()> {
-    let techniques = techniques(arguments);
+fn table(
+    out: &mut impl Write,
+    arguments: &Arguments,
+    techniques: &[TechniqueArgument],
+    scene: &Scene,
+    rows: &[Row],
+) -> Result<()> {
     writeln!(out, "{}: {}", scene.name, scene.title)?;
     type Measure = (&'static str, fn(&Row) -> (f64, f64));
     let measures: [Measure; 2] = [
@@ -184,7 +225,7 @@ fn table(out: &mut impl Write, arguments: &Arguments, scene: &Scene, rows: &[Row
         let head = [name.to_owned()].into_iter().chain(techniques.iter().map(|technique| technique.to_string()));
         table.set_header(head);
         for map in &arguments.shadow_maps {
-            let cell = |technique: &Technique| {
+            let cell = |technique: &TechniqueArgument| {
                 let found = find(rows, scene, *map, *technique).map(measure);
                 found.map_or(String::new(), |(all, near)| format!("{all:.4} / {near:.4}"))
             };
@@ -195,55 +236,45 @@ fn table(out: &mut impl Write, arguments: &Arguments, scene: &Scene, rows: &[Row
     Ok(())
 }
 
-/// What the numbers mean, loss by loss. Errors are those near silhouettes.
-fn verdicts(out: &mut impl Write, arguments: &Arguments, scenes: &[Scene], rows: &[Row]) -> Result<()> {
+/// What the numbers mean, loss by loss: where a technique is worse than the first, the cheapest one. Errors are
+/// those near silhouettes.
+fn verdicts(
+    out: &mut impl Write,
+    arguments: &Arguments,
+    techniques: &[TechniqueArgument],
+    scenes: &[Scene],
+    rows: &[Row],
+) -> Result<()> {
     writeln!(
         out,
-        "Each cell: all surfaces / within {NEAR} pixels of a true silhouette. In what follows, RMSE near silhouettes."
+        "Each cell: all surfaces / within {NEAR} pixels of a true silhouette, weighted by the light that would be \
+         there.\nIn what follows, RMSE near silhouettes."
     )?;
+    let Some((first, others)) = techniques.split_first() else { return Ok(()) };
     let near = |scene, map, technique| find(rows, scene, map, technique).map(|row| row.near.rmse);
     let mut losses = Vec::new();
-    let mut goal = Vec::new();
     for scene in scenes {
         for map in &arguments.shadow_maps {
-            let Some(hard) = near(scene, *map, Technique::Hard) else { continue };
-            let worse = techniques(arguments).into_iter().filter_map(|technique| {
-                let error = near(scene, *map, technique)?;
-                (error > hard).then(|| format!("{technique} {error:.4}"))
+            let Some(least) = near(scene, *map, *first) else { continue };
+            let worse = others.iter().filter_map(|technique| {
+                let error = near(scene, *map, *technique)?;
+                (error > least).then(|| format!("{technique} {error:.4}"))
             });
             let worse: Vec<String> = worse.collect();
             if !worse.is_empty() {
-                losses.push(format!("{}, {map}: worse than hard ({hard:.4}): {}", scene.name, worse.join(", ")));
-            }
-            if let (Some(rsmss), Some(case_free)) =
-                (near(scene, *map, Technique::Rsmss), near(scene, *map, Technique::CaseFree))
-                && rsmss > case_free
-            {
-                losses.push(format!("{}, {map}: rsmss {rsmss:.4} loses to casefree {case_free:.4}", scene.name));
-            }
-            if let (Some(rsmss), Some(fine)) =
-                (near(scene, *map, Technique::Rsmss), map.checked_mul(4).and_then(|m| near(scene, m, Technique::Hard)))
-            {
-                let verdict = if rsmss <= fine { "reached" } else { "missed" };
-                let fine_map = 4 * map;
-                goal.push(format!(
-                    "{}: rsmss at {map} {rsmss:.4}, hard at {fine_map} {fine:.4}: {verdict}",
-                    scene.name
-                ));
+                losses.push(format!("{}, {map}: worse than {first} ({least:.4}): {}", scene.name, worse.join(", ")));
             }
         }
     }
-    for (head, lines) in [("Losses", losses), ("rsmss at N against hard at 4N", goal)] {
-        if !lines.is_empty() {
-            writeln!(out, "\n{head}:")?;
-            lines.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
-        }
+    if !losses.is_empty() {
+        writeln!(out, "\nLosses:")?;
+        losses.iter().try_for_each(|line| writeln!(out, "  {line}"))?;
     }
     Ok(())
 }
 
 /// A plot per scene, in rows of three: error near silhouettes over the size of the map.
-fn draw(arguments: &Arguments, scenes: &[Scene], rows: &[Row]) -> String {
+fn draw(arguments: &Arguments, techniques: &[TechniqueArgument], scenes: &[Scene], rows: &[Row]) -> String {
     let (width, height) = (420, 320);
     let plots: String = scenes
         .iter()
@@ -255,13 +286,13 @@ fn draw(arguments: &Arguments, scenes: &[Scene], rows: &[Row]) -> String {
                 y: plot::Axis { label: "RMSE near silhouettes".to_owned(), scale: plot::Scale::Linear },
                 size: (width, height),
             };
-            let series = |technique: Technique| {
-                let at = |map: &u32| Some((f64::from(*map), find(rows, scene, *map, technique)?.near.rmse));
+            let series = |technique: &TechniqueArgument| {
+                let at = |map: &u32| Some((f64::from(*map), find(rows, scene, *map, *technique)?.near.rmse));
                 let mut points: Vec<(f64, f64)> = arguments.shadow_maps.iter().filter_map(at).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 plot::Series { name: technique.name().to_owned(), points }
             };
-            let all: Vec<plot::Series> = techniques(arguments).into_iter().map(series).collect();
+            let all: Vec<plot::Series> = techniques.iter().map(series).collect();
             let (x, y) = (index as u32 % 3 * width, index as u32 / 3 * height);
             plot::lines(&frame, &all).replacen("<svg ", &format!("<svg x=\"{x}\" y=\"{y}\" "), 1)
         })

@@ -1,4 +1,4 @@
-//! `umbrage tune --whole`: the plans in the shadow pass that the table is for.
+//! `umbrage tune --whole`: the plans in the technique that the table is for.
 
 use std::io::Write;
 
@@ -7,47 +7,45 @@ use serde_json::json;
 use super::Arguments;
 use crate::cli::Result;
 use crate::diag::Failure;
-use crate::gpu::Gpu;
 use crate::gpu::timing::Stopwatch;
 use crate::program::Program;
 use crate::scene::Scene;
-use crate::technique::revectorise::gpu::{GpuFrame, Raster};
-use crate::technique::revectorise::stage::{Bias, Stage};
+use crate::technique::{Executor, Frame, Settings, revectorise::SHADOW_MAP, setting::Value};
 use crate::tune::Tuning;
-use crate::tune::whole::{Frame, Whole, technique, whole};
+use crate::tune::whole::{Whole, technique, whole};
 
-/// Says what cannot be measured.
+/// Refuses what cannot be measured.
 pub(super) fn check(arguments: &Arguments, program: &Program) -> std::result::Result<(), Failure> {
     technique(program)?;
     arguments.scene.iter().try_for_each(|scene| Scene::open(scene).map(drop))
 }
 
-/// Measures the pass on every scene.
+/// Measures the technique that the table is for, on every scene.
 pub(super) fn measure(
     arguments: &Arguments,
     program: &Program,
-    gpu: &Gpu,
+    executor: &Executor,
     tuning: &Tuning<'_>,
 ) -> std::result::Result<Vec<Whole>, Failure> {
-    let (width, height) = arguments.size.unwrap_or(if gpu.is_software() { (480, 270) } else { (1920, 1080) });
-    let size = arguments.shadow_map;
-    let mut frames = Vec::new();
+    let Executor::Gpu(gpu) = executor else { return Ok(Vec::new()) };
+    let technique = technique(program)?;
+    let size = arguments.size.unwrap_or(if gpu.is_software() { (480, 270) } else { (1920, 1080) });
+    let settings = Settings::default().with(&SHADOW_MAP, Value::Whole(arguments.shadow_map));
+    let watch = if arguments.wall_clock { Stopwatch::wall(gpu) } else { Stopwatch::new(gpu) };
+    let mut measured = Vec::new();
     for name in &arguments.scene {
         let scene = Scene::open(name)?;
-        let stage = Stage::new(&scene)?;
-        let raster = Raster::new(gpu, &stage)?;
-        let map = raster.shadow_map(size, Bias::default())?;
-        let frame = GpuFrame::new(gpu, &map, &raster.picture(width, height, size)?.receivers)?;
-        frames.push(Frame { name: format!("{}, {width}x{height}, map {size}", scene.name), frame });
+        let frame = Frame::new(&scene, size, executor).with(settings.clone());
+        let name = format!("{}, {}", scene.name, frame.describe(&[technique]));
+        measured.extend(whole(technique, &name, &frame, &tuning.plans, &watch, tuning.options.protocol)?);
     }
-    let watch = if arguments.wall_clock { Stopwatch::wall(gpu) } else { Stopwatch::new(gpu) };
-    whole(gpu, program, &tuning.plans, &frames, &watch, tuning.options.protocol)
+    Ok(measured)
 }
 
 pub(super) fn human(out: &mut impl Write, tuning: &Tuning<'_>) -> Result<()> {
     let name = |plan: usize| tuning.plans[plan].candidate.name();
     for whole in &tuning.whole {
-        writeln!(out, "\nthe whole pass on {}, {} shader", whole.frame, whole.pass.name())?;
+        writeln!(out, "\nthe whole pass on {}, {} shader", whole.frame, whole.pass)?;
         writeln!(out, "  plan                       ms      +-   to ladder")?;
         let mut order: Vec<usize> = (0..whole.times.len()).collect();
         order.sort_by(|a, b| whole.times[*a].median().total_cmp(&whole.times[*b].median()));
@@ -58,11 +56,11 @@ pub(super) fn human(out: &mut impl Write, tuning: &Tuning<'_>) -> Result<()> {
             writeln!(out, "  {:<20} {ms:>9.3} {uncertainty:>7.3} {:>11.3}{noise}", name(plan), whole.vs_ladder(plan))?;
         }
         let faster: Vec<String> = whole.faster_than(tuning.chosen).into_iter().map(name).collect();
-        match faster.is_empty() {
-            true => {
-                writeln!(out, "  no plan is faster than the chosen one, {}, by more than noise", name(tuning.chosen))?
-            }
-            false => writeln!(out, "  faster than the chosen {}: {}", name(tuning.chosen), faster.join(", "))?,
+        let chosen = name(tuning.chosen);
+        if faster.is_empty() {
+            writeln!(out, "  no plan is faster than the chosen one, {chosen}, by more than noise")?;
+        } else {
+            writeln!(out, "  faster than the chosen {chosen}: {}", faster.join(", "))?;
         }
     }
     Ok(())
@@ -74,7 +72,7 @@ pub(super) fn object(tuning: &Tuning<'_>) -> serde_json::Value {
         (0..whole.times.len()).map(move |plan| {
             json!({
                 "frame": whole.frame,
-                "pass": whole.pass.name(),
+                "pass": whole.pass,
                 "name": tuning.plans[plan].candidate.name(),
                 "ms": 1e3 * whole.times[plan].median(),
                 "uncertainty_ms": 1e3 * whole.times[plan].uncertainty(),

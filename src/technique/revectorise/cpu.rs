@@ -8,28 +8,14 @@ use rayon::prelude::*;
 use super::case_free;
 use super::inputs::{Facts, Point, Vocabulary};
 use super::probe::Probe;
-use super::{Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Technique, Visibility};
-use crate::diag::{Failure, Source};
+use super::{Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Variant, Visibility};
+use crate::diag::Failure;
 use crate::eval::{Columns, Interpreter, NeedsFetch};
 use crate::program::{Program, Value};
-use crate::table::Table;
 
-/// The table of a technique, as it comes with Umbrage; `None` if the technique needs none.
-///
-/// # Errors
-/// Never for the tables that come with Umbrage, which are tested.
-pub fn table(technique: Technique) -> Result<Option<Program>, Failure> {
-    let (name, text) = match technique.table() {
-        None => return Ok(None),
-        Some("smsr") => ("tables/smsr.ron", include_str!("../../../tables/smsr.ron")),
-        Some(_) => ("tables/rsmss.ron", include_str!("../../../tables/rsmss.ron")),
-    };
-    Program::check(&Table::parse(Source::new(name, text))?).map(Some)
-}
-
-/// What the executor needs of a frame.
+/// A shadow map, the points that ask it, and how it is searched.
 #[derive(Debug, Clone, Copy)]
-pub struct Frame<'a> {
+pub struct Query<'a> {
     /// The shadow map.
     pub map: &'a ShadowMap,
     /// The receivers, made for a map of this size.
@@ -38,7 +24,7 @@ pub struct Frame<'a> {
     pub settings: &'a Settings,
 }
 
-/// The inputs of every evaluation of a table in a frame.
+/// The inputs of every evaluation of a table in a query.
 #[derive(Debug)]
 pub struct Evaluations {
     /// One row per evaluation, in the order of the pixels; fetched inputs where they were needed.
@@ -60,46 +46,43 @@ impl Decision {
     }
 }
 
-/// The visibility of every pixel by a technique.
-///
-/// A technique with a table takes it as `program`. [`Technique::Reference`]
-/// needs the scene itself and is not evaluated here: it gives the plain test.
+/// The visibility of every pixel by a variant. One with a table takes it as `program`.
 ///
 /// # Errors
 /// When the table asks for inputs that a shadow map does not have.
 ///
 /// ```
-/// use umbrage::technique::revectorise::cpu::{self, Frame};
+/// use umbrage::technique::revectorise::cpu::{self, Query};
 /// use umbrage::technique::revectorise::stage::{Bias, Stage};
 /// use umbrage::scene::Scene;
-/// use umbrage::technique::revectorise::{Settings, Technique};
+/// use umbrage::technique::revectorise::{Settings, Variant};
+/// use umbrage::technique::tables;
 ///
 /// let scene = Scene::open("slope")?;
 /// let stage = Stage::new(&scene)?;
 /// let map = stage.shadow_map(64, Bias::default());
 /// let receivers = stage.receivers(&stage.surfaces(32, 18), map.size);
-/// let frame = Frame { map: &map, receivers: &receivers, settings: &Settings::default() };
-/// let program = cpu::table(Technique::Smsr)?;
-/// let visibility = cpu::visibility(Technique::Smsr, program.as_ref(), frame, &|_| {})?;
+/// let query = Query { map: &map, receivers: &receivers, settings: &Settings::default() };
+/// let visibility = cpu::visibility(Variant::Smsr, Some(tables::SMSR.program()?), query, &|_| {})?;
 /// assert_eq!(visibility.value.len(), 32 * 18);
 /// # Ok::<(), umbrage::diag::Failure>(())
 /// ```
 pub fn visibility(
-    technique: Technique,
+    variant: Variant,
     program: Option<&Program>,
-    frame: Frame<'_>,
+    query: Query<'_>,
     done: &(dyn Fn(u64) + Sync),
 ) -> Result<Visibility, Failure> {
     let vocabulary = program.map(Vocabulary::new).transpose()?;
-    let width = frame.receivers.width.max(1) as usize;
-    let rows: Vec<Vec<Decision>> = frame
+    let width = query.receivers.width.max(1) as usize;
+    let rows: Vec<Vec<Decision>> = query
         .receivers
         .points
         .par_chunks(width)
         .map_init(
             || vocabulary.as_ref().map(Evaluator::new),
             |evaluator, row| {
-                let decisions = row.iter().map(|receiver| decide(technique, evaluator, frame, receiver)).collect();
+                let decisions = row.iter().map(|receiver| decide(variant, evaluator, query, receiver)).collect();
                 done(1);
                 decisions
             },
@@ -118,9 +101,9 @@ pub fn visibility(
 ///
 /// # Errors
 /// When the table asks for inputs that a shadow map does not have.
-pub fn evaluations(program: &Program, frame: Frame<'_>) -> Result<Evaluations, Failure> {
+pub fn evaluations(program: &Program, query: Query<'_>) -> Result<Evaluations, Failure> {
     let vocabulary = Vocabulary::new(program)?;
-    let found: Vec<Option<Point>> = frame
+    let found: Vec<Option<Point>> = query
         .receivers
         .points
         .par_iter()
@@ -130,7 +113,7 @@ pub fn evaluations(program: &Program, frame: Frame<'_>) -> Result<Evaluations, F
                 if receiver.kind != ReceiverKind::Facing {
                     return None;
                 }
-                let facts = evaluator.facts(Probe::new(frame.map, receiver, frame.settings), frame.settings)?;
+                let facts = evaluator.facts(Probe::new(query.map, receiver, query.settings), query.settings)?;
                 Some(evaluator.evaluate(&facts).1)
             },
         )
@@ -147,29 +130,24 @@ pub fn evaluations(program: &Program, frame: Frame<'_>) -> Result<Evaluations, F
     Ok(evaluations)
 }
 
-fn decide(
-    technique: Technique,
-    evaluator: &mut Option<Evaluator<'_>>,
-    frame: Frame<'_>,
-    receiver: &Receiver,
-) -> Decision {
+fn decide(variant: Variant, evaluator: &mut Option<Evaluator<'_>>, query: Query<'_>, receiver: &Receiver) -> Decision {
     match receiver.kind {
         ReceiverKind::Background => return Decision::plain(1.0),
         ReceiverKind::Away => return Decision::plain(0.0),
         ReceiverKind::Facing => {}
     }
-    let settings = frame.settings;
-    let probe = Probe::new(frame.map, receiver, settings);
+    let settings = query.settings;
+    let probe = Probe::new(query.map, receiver, settings);
     let by_table = |evaluator: &mut Option<Evaluator<'_>>, probe: Probe<'_>| match evaluator {
         Some(evaluator) => evaluator.decide(probe, settings),
         None => Decision::plain(hard(&probe)),
     };
-    match technique {
-        Technique::Hard | Technique::Reference => Decision::plain(hard(&probe)),
-        Technique::Pcf => Decision::plain(mean(&probe, settings.pcf, |probe| hard(&probe))),
-        Technique::CaseFree => Decision::plain(case_free::filtered(&probe, settings)),
-        Technique::Smsr | Technique::Rsmss => by_table(evaluator, probe),
-        Technique::Rpcf => {
+    match variant {
+        Variant::Hard => Decision::plain(hard(&probe)),
+        Variant::Pcf => Decision::plain(mean(&probe, settings.pcf, |probe| hard(&probe))),
+        Variant::CaseFree => Decision::plain(case_free::filtered(&probe, settings)),
+        Variant::Smsr | Variant::Rsmss => by_table(evaluator, probe),
+        Variant::Rpcf => {
             let value = mean(&probe, settings.pcf, |probe| by_table(evaluator, probe).value);
             // The case that is shown is that of the texel itself.
             Decision { value, ..by_table(evaluator, probe) }

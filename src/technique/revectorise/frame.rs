@@ -5,6 +5,8 @@
 //! [`Receiver::depth_at`] without any rounding, whatever a compiler does about
 //! fused operations. So CPU and GPU decide each depth test alike.
 
+use crate::technique::rendered;
+
 /// The unit of receivers' depths, 2^-22: multiples of it up to 4 are exact in `f32`.
 pub const DEPTH_UNIT: f32 = 1.0 / (1 << 22) as f32;
 
@@ -108,14 +110,19 @@ pub struct Settings {
     /// be for the walk to lift it (the authors use 2.5e-5 or 2.5e-6). Zero, the default, does nothing;
     /// receivers with slopes do not need it.
     pub walk_bias: f32,
-    /// Texels per side of the kernel of [`Technique::Pcf`](super::Technique::Pcf) and
-    /// [`Technique::Rpcf`](super::Technique::Rpcf); odd.
+    /// Texels per side of the kernel of [`Variant::Pcf`](super::Variant::Pcf) and
+    /// [`Variant::Rpcf`](super::Variant::Rpcf); odd.
     pub pcf: u32,
+}
+
+impl Settings {
+    /// Long walks, no bias along them, a small kernel.
+    pub const DEFAULT: Settings = Settings { search_limit: 128, walk_bias: 0.0, pcf: 3 };
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { search_limit: 128, walk_bias: 0.0, pcf: 3 }
+        Self::DEFAULT
     }
 }
 
@@ -134,9 +141,9 @@ pub struct Visibility {
 
 impl Visibility {
     /// No table was evaluated at the pixel.
-    pub const NONE: u32 = u32::MAX;
+    pub const NONE: u32 = rendered::NONE;
     /// The table was evaluated, and none of its cases matched.
-    pub const DEFAULT: u32 = u32::MAX - 1;
+    pub const DEFAULT: u32 = rendered::DEFAULT;
 
     /// Nothing decided yet: all in light.
     pub fn new(pixels: usize) -> Self {

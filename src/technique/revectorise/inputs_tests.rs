@@ -1,6 +1,6 @@
 use crate::technique::revectorise::cpu;
-use crate::technique::revectorise::cpu::Frame;
-use crate::technique::revectorise::{Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Technique, Visibility};
+use crate::technique::revectorise::cpu::Query;
+use crate::technique::revectorise::{Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Variant, Visibility};
 
 /// A map whose texels are in shadow where a condition holds at their centres, under a receiver between.
 fn map(size: u32, shadow: impl Fn(f32, f32) -> bool) -> ShadowMap {
@@ -26,11 +26,11 @@ fn receivers(size: u32, fine: u32) -> (Receivers, Vec<[f32; 2]>) {
     (Receivers { width: side, height: side, points: places.iter().map(receiver).collect() }, places)
 }
 
-fn visibility(technique: Technique, map: &ShadowMap, receivers: &Receivers) -> Visibility {
-    let program = cpu::table(technique).expect("a table of this crate");
+fn visibility(variant: Variant, map: &ShadowMap, receivers: &Receivers) -> Visibility {
+    let program = variant.program().expect("a table of this crate");
     let settings = Settings::default();
-    let frame = Frame { map, receivers, settings: &settings };
-    cpu::visibility(technique, program.as_ref(), frame, &|_| ()).expect("its inputs are known")
+    let query = Query { map, receivers, settings: &settings };
+    cpu::visibility(variant, program, query, &|_| ()).expect("its inputs are known")
 }
 
 /// How a technique shows the edge of a half plane: against the true edge moved by `shift` texels.
@@ -62,13 +62,13 @@ fn revectorisation_makes_a_line_of_a_staircase() {
         let distance = line(degrees);
         let map = map(64, |x, y| distance(x, y) < 0.0);
         let (receivers, places) = receivers(64, 8);
-        let hard = edge(degrees, 0.0, &places, &visibility(Technique::Hard, &map, &receivers));
+        let hard = edge(degrees, 0.0, &places, &visibility(Variant::Hard, &map, &receivers));
         // SMSR only adds shadow: its line goes through the lit corners, about half a texel away. Which of
         // these lines it is does not matter here.
-        let smsr = visibility(Technique::Smsr, &map, &receivers);
+        let smsr = visibility(Variant::Smsr, &map, &receivers);
         let shifts = (20..=60).map(|shift| edge(degrees, shift as f32 / 100.0, &places, &smsr));
         let smsr = shifts.min_by_key(|edge| edge.wrong).expect("there are some");
-        let rsmss = edge(degrees, 0.0, &places, &visibility(Technique::Rsmss, &map, &receivers));
+        let rsmss = edge(degrees, 0.0, &places, &visibility(Variant::Rsmss, &map, &receivers));
         let told = |edge: &Edge| format!("{} wrong, up to {:.2}", edge.wrong, edge.farthest);
         println!("{degrees:5}°: hard {}; smsr {}; rsmss {}", told(&hard), told(&smsr), told(&rsmss));
         for edge in [smsr, rsmss] {
@@ -85,7 +85,7 @@ fn soft_silhouettes_do_not_move_the_edge() {
         let map = map(64, |x, y| distance(x, y) < 0.0);
         let (receivers, places) = receivers(64, 8);
         let lit = places.iter().filter(|[x, y]| distance(*x, *y) >= 0.0).count() as f32;
-        let seen = visibility(Technique::Rsmss, &map, &receivers).value.iter().sum::<f32>();
+        let seen = visibility(Variant::Rsmss, &map, &receivers).value.iter().sum::<f32>();
         // The edge is at least 32 texels long, with 64 samples to a texel.
         let shift = (seen - lit) / (32.0 * 64.0);
         assert!(shift.abs() < 0.03, "{degrees}°: the edge moved by {shift} texels");
@@ -97,7 +97,7 @@ fn soft_silhouettes_are_continuous_on_a_staircase() {
     // Steps of 3 texels: within one texel the value changes by at most 1/8 × (1 + 1/3), and no more across a border.
     let map = map(64, |x, y| (y - 0.5) < ((x - 0.5) / 3.0).floor() + 20.0);
     let (receivers, _) = receivers(64, 8);
-    let seen = visibility(Technique::Rsmss, &map, &receivers);
+    let seen = visibility(Variant::Rsmss, &map, &receivers);
     let side = receivers.width as usize;
     let steps = seen.value.chunks(side).flat_map(|row| row.windows(2).map(|pair| (pair[0] - pair[1]).abs()));
     let down = (side..seen.value.len()).map(|i| (seen.value[i] - seen.value[i - side]).abs());
@@ -109,13 +109,13 @@ fn soft_silhouettes_are_continuous_on_a_staircase() {
 fn a_run_longer_than_the_limit_keeps_the_plain_test() {
     let map = map(64, |x, y| (y - 0.5) < ((x - 0.5) / 20.0).floor() + 30.0);
     let (receivers, _) = receivers(64, 2);
-    let program = cpu::table(Technique::Rsmss).expect("a table of this crate");
-    let seen = |technique, limit| {
+    let program = Variant::Rsmss.program().expect("a table of this crate");
+    let seen = |variant, limit| {
         let settings = Settings { search_limit: limit, ..Settings::default() };
-        let frame = Frame { map: &map, receivers: &receivers, settings: &settings };
-        cpu::visibility(technique, program.as_ref(), frame, &|_| ()).expect("its inputs are known")
+        let query = Query { map: &map, receivers: &receivers, settings: &settings };
+        cpu::visibility(variant, program, query, &|_| ()).expect("its inputs are known")
     };
-    let hard = seen(Technique::Hard, 20);
-    assert_eq!(seen(Technique::Rsmss, 19).value, hard.value);
-    assert_ne!(seen(Technique::Rsmss, 20).value, hard.value);
+    let hard = seen(Variant::Hard, 20);
+    assert_eq!(seen(Variant::Rsmss, 19).value, hard.value);
+    assert_ne!(seen(Variant::Rsmss, 20).value, hard.value);
 }

@@ -14,20 +14,26 @@
 
 mod case_free;
 pub mod cpu;
+#[cfg(feature = "gpu")]
+mod device;
+mod entry;
 mod frame;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 mod inputs;
 mod probe;
-pub mod reference;
 pub mod stage;
 mod variant;
 
+pub use entry::{
+    BIAS, CASE_FREE, Entry, HARD, MAX_MAP, PCF, PCF_KERNEL, PLAN, RPCF, RSMSS, SEARCH_LIMIT, SHADOW_MAP, SLOPE_BIAS,
+    SMSR, WALK_BIAS,
+};
 pub use frame::{
     DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Visibility, fixed_depth, max_slope,
 };
 pub use inputs::Vocabulary;
-pub use variant::Technique;
+pub use variant::Variant;
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,8 @@
 //! The passes before a technique, by ray casting: what the camera sees, what the
 //! light sees, and where the one lies in the other.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -11,6 +13,7 @@ use crate::scene::light::Punctual;
 use crate::scene::rays::{Rays, SurfacePoint};
 use crate::scene::surfaces::Surfaces;
 use crate::scene::view::{Plane, View};
+use crate::technique::shade::faces;
 
 /// What is added to the depths of a shadow map, so that a surface does not shadow itself.
 ///
@@ -24,9 +27,14 @@ pub struct Bias {
     pub slope: f32,
 }
 
+impl Bias {
+    /// Covers rounding and gentle curvature.
+    pub const DEFAULT: Bias = Bias { constant: 4.0, slope: 0.25 };
+}
+
 impl Default for Bias {
     fn default() -> Self {
-        Self { constant: 4.0, slope: 0.25 }
+        Self::DEFAULT
     }
 }
 
@@ -36,7 +44,7 @@ pub struct Stage<'s> {
     /// The scene.
     pub scene: &'s Scene,
     /// What rays are sent through.
-    pub rays: Rays,
+    pub rays: Arc<Rays>,
     /// The light that has a shadow map.
     pub light: Punctual,
     /// What the light sees.
@@ -51,8 +59,16 @@ impl<'s> Stage<'s> {
     /// # Errors
     /// When there is no such light.
     pub fn new(scene: &'s Scene) -> Result<Self, Failure> {
+        Self::with_rays(scene, Arc::new(Rays::new(scene)))
+    }
+
+    /// The same with rays that were made before.
+    ///
+    /// # Errors
+    /// When there is no such light.
+    pub fn with_rays(scene: &'s Scene, rays: Arc<Rays>) -> Result<Self, Failure> {
         let light = scene.punctual("shadow map")?;
-        let (rays, light_view) = (Rays::new(scene), light.view(scene));
+        let light_view = light.view(scene);
         let planes = rays.triangles().iter().map(|triangle| light_view.plane(triangle.corners)).collect();
         Ok(Self { scene, rays, light, light_view, planes })
     }
@@ -90,7 +106,7 @@ impl<'s> Stage<'s> {
 
     fn receiver(&self, point: &SurfacePoint, size: u32) -> Receiver {
         let away = Receiver { kind: ReceiverKind::Away, ..Receiver::default() };
-        if !self.faces_light(point) {
+        if !faces(&self.light, point) {
             return away;
         }
         let Some((place, depth)) = self.light_view.project(point.place) else { return away };
@@ -103,26 +119,12 @@ impl<'s> Stage<'s> {
         let [dz_dx, dz_dy] = [plane.du, plane.dv].map(|slope| fixed_depth((slope * texel) as f32, limit));
         // Where the plane is too steep to be followed to the centre, it is followed as far as it goes.
         let is_steep = [plane.du, plane.dv].iter().any(|slope| (slope * texel).abs() > f64::from(limit));
-        let z = match is_steep {
-            false => plane.at(centre.x, centre.y),
-            true => {
-                let off = (centre - place) * f64::from(size);
-                depth + f64::from(dz_dx) * off.x + f64::from(dz_dy) * off.y
-            }
+        let z = if is_steep {
+            let off = (centre - place) * f64::from(size);
+            depth + f64::from(dz_dx) * off.x + f64::from(dz_dy) * off.y
+        } else {
+            plane.at(centre.x, centre.y)
         };
         Receiver { u, v, z: fixed_depth(z.clamp(0.0, 1.0) as f32, 1.0), kind: ReceiverKind::Facing, dz_dx, dz_dy }
-    }
-
-    /// Whether the side of a surface that is seen is the one that the light could reach.
-    pub(crate) fn faces_light(&self, point: &SurfacePoint) -> bool {
-        point.normal.dot(self.light.direction(point.place)) < 0.0
-    }
-
-    /// Whether a point is in the light, were shadows perfect.
-    pub(crate) fn is_lit(&self, point: &SurfacePoint) -> bool {
-        if !self.faces_light(point) {
-            return false;
-        }
-        self.rays.sees_light(point, -self.light.direction(point.place), self.light.distance(point.place))
     }
 }

@@ -1,10 +1,14 @@
-//! The techniques by name.
+//! The variants of revectorisation, by name.
 
 use std::fmt;
 
+use crate::diag::Failure;
+use crate::program::Program;
+use crate::technique::tables::{self, BuiltIn};
+
 /// A way to turn a shadow map into the visibility of the light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Technique {
+pub enum Variant {
     /// One depth test per fragment: jagged where texels are large.
     Hard,
     /// Percentage-closer filtering: the mean of n × n depth tests.
@@ -13,55 +17,55 @@ pub enum Technique {
     Smsr,
     /// Revectorised soft silhouettes by the table `rsmss`: the line, antialiased.
     Rsmss,
-    /// The mean of n × n results of [`Technique::Rsmss`].
+    /// The mean of n × n results of [`Variant::Rsmss`].
     Rpcf,
     /// The filtered formulation without cases that the authors published later.
     CaseFree,
-    /// The true shadow, antialiased: rays towards the light, no shadow map.
-    Reference,
 }
 
-impl Technique {
+impl Variant {
     /// All of them, the cheapest first.
-    pub const ALL: [Technique; 7] = [
-        Technique::Hard,
-        Technique::Pcf,
-        Technique::Smsr,
-        Technique::Rsmss,
-        Technique::Rpcf,
-        Technique::CaseFree,
-        Technique::Reference,
-    ];
+    pub const ALL: [Variant; 6] =
+        [Variant::Hard, Variant::Pcf, Variant::Smsr, Variant::Rsmss, Variant::Rpcf, Variant::CaseFree];
 
     /// Its name on the command line and in files.
     pub fn name(self) -> &'static str {
         match self {
-            Technique::Hard => "hard",
-            Technique::Pcf => "pcf",
-            Technique::Smsr => "smsr",
-            Technique::Rsmss => "rsmss",
-            Technique::Rpcf => "rpcf",
-            Technique::CaseFree => "casefree",
-            Technique::Reference => "reference",
+            Variant::Hard => "hard",
+            Variant::Pcf => "pcf",
+            Variant::Smsr => "smsr",
+            Variant::Rsmss => "rsmss",
+            Variant::Rpcf => "rpcf",
+            Variant::CaseFree => "casefree",
         }
     }
 
-    /// The technique with a name.
+    /// The variant with a name.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|technique| technique.name() == name)
+        Self::ALL.into_iter().find(|variant| variant.name() == name)
     }
 
-    /// The table that it evaluates, if it does: its name.
-    pub fn table(self) -> Option<&'static str> {
+    /// The table that it evaluates, if it evaluates one.
+    pub fn table(self) -> Option<&'static BuiltIn> {
         match self {
-            Technique::Smsr => Some("smsr"),
-            Technique::Rsmss | Technique::Rpcf => Some("rsmss"),
-            Technique::Hard | Technique::Pcf | Technique::CaseFree | Technique::Reference => None,
+            Variant::Smsr => Some(&tables::SMSR),
+            Variant::Rsmss | Variant::Rpcf => Some(&tables::RSMSS),
+            Variant::Hard | Variant::Pcf | Variant::CaseFree => None,
         }
     }
 }
 
-impl fmt::Display for Technique {
+impl Variant {
+    /// The program of its table, if it evaluates one.
+    ///
+    /// # Errors
+    /// Never for the tables that come with Umbrage, which are tested.
+    pub fn program(self) -> Result<Option<&'static Program>, Failure> {
+        self.table().map(BuiltIn::program).transpose()
+    }
+}
+
+impl fmt::Display for Variant {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }

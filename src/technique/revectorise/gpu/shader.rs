@@ -16,7 +16,7 @@ use crate::gpu::timing::{Marks, Stopwatch};
 use crate::gpu::{Buffer, CommandEncoder, CompareFunction, Gpu, Texture, TextureFormat, TextureView, view};
 use crate::plan::Plan;
 use crate::prove::Proved;
-use crate::technique::revectorise::{Settings, Technique, Visibility};
+use crate::technique::revectorise::{Settings, Variant, Visibility};
 
 /// The start of `work` in compute_two.wgsl: no workgroups along x, one along y and z, no pixels.
 const WORK: [u32; 4] = [0, 1, 1, 0];
@@ -106,7 +106,7 @@ impl<'g> Shader<'g> {
     /// When the plan is not of the table that the technique needs, or the device refuses the shader.
     pub fn new(
         gpu: &'g Gpu,
-        technique: Technique,
+        technique: Variant,
         proved: Option<&Proved<'_>>,
         skeleton: Skeleton,
         output: Output,

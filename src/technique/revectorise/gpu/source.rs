@@ -9,7 +9,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit;
 use crate::plan::Plan;
 use crate::prove::Proved;
-use crate::technique::revectorise::Technique;
+use crate::technique::revectorise::Variant;
 
 const FRAME: &str = include_str!("wgsl/frame.wgsl");
 const EDGES: &str = include_str!("wgsl/edges.wgsl");
@@ -98,18 +98,19 @@ impl Output {
 /// The WGSL of a technique. `proved` is the plan of its table, if it has one.
 ///
 /// # Errors
-/// When the technique is not evaluated from a shadow map, or the table is not the one that the technique needs.
+/// When the table is not the one that the variant needs.
 pub fn source(
-    technique: Technique,
+    technique: Variant,
     proved: Option<&Proved<'_>>,
     skeleton: Skeleton,
     output: Output,
 ) -> Result<String, Failure> {
     let mut out = String::from(FRAME);
     let table = |out: &mut String, own: &str| -> Result<(), Failure> {
-        let proved = proved.filter(|proved| Some(proved.plan().program.name.as_str()) == technique.table());
+        let proved = proved
+            .filter(|proved| Some(proved.plan().program.name.as_str()) == technique.table().map(|table| table.name));
         let Some(proved) = proved else {
-            let table = technique.table().unwrap_or("no table");
+            let table = technique.table().map_or("no table", |table| table.name);
             let message = format!("the technique `{technique}` needs a plan of the table `{table}`");
             return Err(Failure::bare("", Diagnostic::error(codes::NOT_APPLICABLE, message)));
         };
@@ -135,24 +136,19 @@ pub fn source(
         Ok(())
     };
     match technique {
-        Technique::Hard => out.push_str(HARD),
-        Technique::Pcf => out.push_str(PCF),
-        Technique::Smsr => table(&mut out, SMSR)?,
-        Technique::Rsmss | Technique::Rpcf => table(&mut out, RSMSS)?,
-        Technique::CaseFree => {
+        Variant::Hard => out.push_str(HARD),
+        Variant::Pcf => out.push_str(PCF),
+        Variant::Smsr => table(&mut out, SMSR)?,
+        Variant::Rsmss | Variant::Rpcf => table(&mut out, RSMSS)?,
+        Variant::CaseFree => {
             out.push_str("const READ_DOMINANCE: bool = false;\n");
             [EDGES, SINGLE_READS, CASE_FREE].into_iter().for_each(|part| out.push_str(part));
         }
-        Technique::Reference => {
-            let error = Diagnostic::error(codes::NOT_APPLICABLE, "the reference is made without a shadow map")
-                .help("it is computed by the CPU: `--backend cpu`");
-            return Err(Failure::bare("", error));
-        }
     }
     match technique {
-        Technique::Smsr | Technique::Rsmss | Technique::CaseFree => out.push_str(ONE_SAMPLE),
-        Technique::Rpcf => out.push_str(MEAN),
-        Technique::Hard | Technique::Pcf | Technique::Reference => {}
+        Variant::Smsr | Variant::Rsmss | Variant::CaseFree => out.push_str(ONE_SAMPLE),
+        Variant::Rpcf => out.push_str(MEAN),
+        Variant::Hard | Variant::Pcf => {}
     }
     match (output, passes(technique, skeleton)) {
         (Output::Compute, Passes::One) => out.push_str(COMPUTE),
@@ -166,10 +162,10 @@ pub fn source(
 }
 
 /// In how many goes a technique is evaluated: only what searches silhouettes has something to put off.
-pub(super) fn passes(technique: Technique, skeleton: Skeleton) -> Passes {
+pub(super) fn passes(technique: Variant, skeleton: Skeleton) -> Passes {
     match technique {
-        Technique::Smsr | Technique::Rsmss => skeleton.passes,
-        Technique::Hard | Technique::Pcf | Technique::Rpcf | Technique::CaseFree | Technique::Reference => Passes::One,
+        Variant::Smsr | Variant::Rsmss => skeleton.passes,
+        Variant::Hard | Variant::Pcf | Variant::Rpcf | Variant::CaseFree => Passes::One,
     }
 }
 
