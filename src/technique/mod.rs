@@ -28,12 +28,12 @@ use std::fmt;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::scene::light::Lights;
 
+use crate::text::closest::nearest;
 pub use executor::Executor;
 pub use frame::Frame;
 pub use prepared::{Inputs, Prepared, Progress};
 pub use rendered::{Layer, Rendered, Samples};
 pub use setting::{Setting, Settings};
-use crate::text::closest::nearest;
 use tables::BuiltIn;
 
 /// The techniques, by family and within a family the cheapest first.
