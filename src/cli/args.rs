@@ -52,7 +52,7 @@ impl Machine {
             Backend::Gpu => self.gpu(false),
             Backend::Auto => Ok(self.gpu(true).unwrap_or_else(|failure| {
                 let reason = failure.diagnostics.first().map_or(String::new(), |d| format!(": {}", d.message));
-                let note = Diagnostic::note(codes::NO_ADAPTER, format!("rendering on the CPU{reason}"));
+                let note = Diagnostic::note(codes::NO_ADAPTER, format!("runs on the CPU{reason}"));
                 report.failure(&Failure::bare("", note.help("say `--backend cpu` or `--backend gpu` to choose")));
                 Executor::Cpu
             })),
@@ -76,7 +76,7 @@ impl Machine {
 
 /// The failure of a build that cannot use GPUs.
 #[cfg(not(feature = "gpu"))]
-pub(super) fn no_gpu() -> Failure {
+fn no_gpu() -> Failure {
     let error = Diagnostic::error(codes::NO_ADAPTER, "this build has no GPU support");
     Failure::bare("", error.help("use `--backend cpu`, or build umbrage with the feature `gpu`"))
 }

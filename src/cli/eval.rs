@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
-
 use super::answers::{Answers, Writer};
+use super::args::{Backend, Machine};
 use super::input;
 use super::input::{Columns, Points, Problems};
 use super::messages::Report;
@@ -16,14 +15,14 @@ use crate::emit::kernel::columns::Entry;
 use crate::eval::{self, Batch, Interpreter, NeedsFetch};
 use crate::explain::explain;
 #[cfg(feature = "gpu")]
-use crate::gpu::{AdapterChoice, Gpu, Kernel, Language};
+use crate::gpu::{Kernel, Language};
 #[cfg(feature = "gpu")]
 use crate::plan::Plan;
 use crate::plan::Shape;
 use crate::program::print::Printer;
 use crate::program::{InputId, Program, Real, Value};
-use crate::prove::Proved;
 use crate::show::Precision;
+use crate::technique;
 
 /// Arguments of `umbrage eval`.
 #[derive(clap::Args)]
@@ -42,25 +41,11 @@ pub(super) struct Arguments {
     /// Floating-point type
     #[arg(long, value_enum, default_value = "f32", value_name = "TYPE")]
     precision: PrecisionArgument,
-    /// What computes the answers
-    #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]
-    executor: ExecutorArgument,
     /// Code shape to run on the GPU: ladder, ordered, nested, gathered, tree, switch, switch_buffer, coefficients, orbit [default: ladder]
     #[arg(long, value_name = "PLAN", value_parser = parse_shape)]
     plan: Option<Shape>,
-    /// The adapter: any, software, hardware, or a part of its name
-    #[cfg(feature = "gpu")]
-    #[arg(long, value_name = "WHICH", default_value = "any")]
-    adapter: AdapterChoice,
-}
-
-/// What computes the answers, as an argument.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ExecutorArgument {
-    /// The interpreter
-    Interpreter,
-    /// A shader made from the table
-    Gpu,
+    #[command(flatten)]
+    machine: Machine,
 }
 
 /// What computes the answers.
@@ -77,30 +62,26 @@ enum Executor<'a> {
 /// Reads, evaluates and writes, a chunk of rows at a time.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
+    refuse_double(arguments)?;
+    let machine = arguments.machine.executor(Backend::Cpu, report)?;
     #[cfg(feature = "gpu")]
-    let device = match arguments.executor {
-        ExecutorArgument::Gpu => Some(on_gpu(&program, arguments)?),
-        ExecutorArgument::Interpreter => None,
+    let proved = match &machine {
+        technique::Executor::Gpu(_) => Some(Plan::proved(&program, arguments.plan.unwrap_or(Shape::Ladder))?),
+        technique::Executor::Cpu => None,
     };
-    let executor = match arguments.executor {
+    let executor = match &machine {
         #[cfg(feature = "gpu")]
-        ExecutorArgument::Gpu => match &device {
-            Some((gpu, proved)) => Executor::Gpu(Kernel::new(gpu, proved, Entry::Key, Language::Wgsl)?),
+        technique::Executor::Gpu(gpu) => match &proved {
+            Some(proved) => Executor::Gpu(Kernel::new(gpu, proved, Entry::Key, Language::Wgsl)?),
             None => Executor::Interpreter,
         },
-        #[cfg(not(feature = "gpu"))]
-        ExecutorArgument::Gpu => {
-            let error = Diagnostic::error(codes::NO_ADAPTER, "this build has no GPU support");
-            let help = "use `--executor interpreter`, or build umbrage with the feature `gpu`";
-            return Err(Failure::bare("", error.help(help)).into());
-        }
-        ExecutorArgument::Interpreter => Executor::Interpreter,
+        technique::Executor::Cpu => Executor::Interpreter,
     };
-    if arguments.executor == ExecutorArgument::Interpreter
+    if matches!(machine, technique::Executor::Cpu)
         && let Some(plan) = &arguments.plan
     {
         let message = format!("the interpreter follows the table itself, so `--plan {plan}` changes nothing");
-        let note = Diagnostic::note(codes::NOT_APPLICABLE, message).help("plans are run with `--executor gpu`");
+        let note = Diagnostic::note(codes::NOT_APPLICABLE, message).help("plans are run with `--backend gpu`");
         report.failure(&Failure::bare("", note));
     }
     let precision = arguments.precision.into();
@@ -247,13 +228,12 @@ fn dispatch(program: &Program, points: &Points, kernel: &Kernel<'_, '_>) -> std:
     Ok(answers)
 }
 
-/// What the GPU needs to live as long as the evaluation.
-#[cfg(feature = "gpu")]
-fn on_gpu<'p>(program: &'p Program, arguments: &Arguments) -> std::result::Result<(Gpu, Proved<'p>), Failure> {
-    if matches!(arguments.precision, PrecisionArgument::F64) {
+/// Refuses double precision on a GPU.
+fn refuse_double(arguments: &Arguments) -> std::result::Result<(), Failure> {
+    let may_be_gpu = arguments.machine.backend.is_some_and(|backend| backend != Backend::Cpu);
+    if may_be_gpu && matches!(arguments.precision, PrecisionArgument::F64) {
         let error = Diagnostic::error(codes::NOT_APPLICABLE, "the GPU computes in f32 only");
-        return Err(Failure::bare("", error.help("leave out `--precision f64`, or use `--executor interpreter`")));
+        return Err(Failure::bare("", error.help("leave out `--precision f64`, or use `--backend cpu`")));
     }
-    let shape = arguments.plan.unwrap_or(Shape::Ladder);
-    Ok((Gpu::open(&arguments.adapter)?, Plan::proved(program, shape)?))
+    Ok(())
 }

@@ -45,6 +45,7 @@ pub static ALL: &[&dyn Technique] = &[
     &revectorise::RPCF,
     &revectorise::CASE_FREE,
     &reference::REFERENCE,
+    &integrals::INTEGRALS,
 ];
 
 /// A way to turn a scene into a picture.

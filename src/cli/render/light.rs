@@ -4,21 +4,20 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::ValueEnum;
 use glam::DVec3;
 use image::{ImageFormat, RgbImage};
 use rayon::prelude::*;
 
+use crate::cli::args::{Backend, Machine};
 use crate::cli::messages::Report;
 use crate::cli::output::Sink;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
-#[cfg(feature = "gpu")]
-use crate::gpu::{AdapterChoice, Gpu};
 use crate::picture::plot;
 use crate::scene::Scene;
 use crate::scene::rays::Rays;
 use crate::scene::surfaces::Surfaces;
+use crate::technique;
 #[cfg(feature = "gpu")]
 use crate::technique::integrals::gpu::LightPipeline;
 use crate::technique::integrals::picture;
@@ -57,13 +56,8 @@ pub(in crate::cli) struct Arguments {
     /// Largest error of the border of visibility and of the lobes in a cell: e_r
     #[arg(long, value_name = "RADIANS", default_value = "0.1", value_parser = threshold, allow_negative_numbers = true)]
     threshold: f64,
-    /// What divides the directions and evaluates the tables
-    #[arg(long, value_enum, default_value = "interpreter", value_name = "WHAT")]
-    executor: ExecutorArgument,
-    /// The adapter for gpu: any, software, hardware, or a part of its name
-    #[cfg(feature = "gpu")]
-    #[arg(long, value_name = "WHICH", default_value = "any")]
-    adapter: AdapterChoice,
+    #[command(flatten)]
+    machine: Machine,
     /// The same picture by brute force, a PNG file; prints how far they are apart
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
@@ -73,16 +67,6 @@ pub(in crate::cli) struct Arguments {
     /// Cells per pixel and error against the threshold, an SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-}
-
-/// What divides the directions and evaluates the tables, as an argument.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum ExecutorArgument {
-    /// The batch interpreter, and plain Rust around it
-    Interpreter,
-    /// One shader, with the tables in it
-    #[cfg(feature = "gpu")]
-    Gpu,
 }
 
 fn size(text: &str) -> std::result::Result<(u32, u32), String> {
@@ -114,7 +98,7 @@ impl Executor<'_> {
 }
 
 /// Makes everything that was asked for, then writes it.
-pub(in crate::cli) fn run(arguments: &Arguments, _report: &Report) -> Result<Outcome> {
+pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let picture_sink = Sink::create(&arguments.output)?;
     let reference_sink = arguments.reference.as_deref().map(Sink::create).transpose()?;
     let cells_sink = arguments.cells.as_deref().map(Sink::create).transpose()?;
@@ -125,23 +109,17 @@ pub(in crate::cli) fn run(arguments: &Arguments, _report: &Report) -> Result<Out
     let rays = Rays::exact(&world);
     let tables = Tables::new()?;
     let mut say = String::new();
-    #[cfg(feature = "gpu")]
-    let gpu = match arguments.executor {
-        ExecutorArgument::Interpreter => None,
-        ExecutorArgument::Gpu => Some(Gpu::open(&arguments.adapter)?),
-    };
-    #[cfg(feature = "gpu")]
-    let (executor, place) = match &gpu {
-        Some(gpu) => {
+    let machine = arguments.machine.executor(Backend::Cpu, report)?;
+    let (executor, place) = match &machine {
+        #[cfg(feature = "gpu")]
+        technique::Executor::Gpu(gpu) => {
             let start = Instant::now();
             let pipeline = LightPipeline::new(gpu, &tables, &scene)?;
             say += &format!("shader compiled in {:.2} s\n", start.elapsed().as_secs_f64());
             (Executor::Gpu(pipeline), gpu.describe())
         }
-        None => (Executor::Interpreter(&tables), INTERPRETER.to_owned()),
+        technique::Executor::Cpu => (Executor::Interpreter(&tables), INTERPRETER.to_owned()),
     };
-    #[cfg(not(feature = "gpu"))]
-    let (executor, place) = (Executor::Interpreter(&tables), INTERPRETER);
 
     let (width, height) = arguments.size;
     let settings = Settings::with_threshold(arguments.threshold);

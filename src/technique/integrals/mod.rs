@@ -16,6 +16,7 @@
 //! available. What is known and what is not says `docs/integrals.md`.
 
 pub mod cells;
+mod entry;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod picture;
@@ -23,6 +24,7 @@ mod surroundings;
 mod tables;
 mod visibility;
 
+pub use entry::{BORDER, CELLS, DEPTH, EDGES, Entry, INTEGRALS, LOBE};
 pub use surroundings::{Ball, Body, Lobe, Plate, Surface, Surroundings};
 pub use visibility::{Cap, Facet, Occluders};
 
@@ -41,8 +43,11 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Coarse, as in a first look.
+    pub const DEFAULT: Settings = Settings { border: 0.1, lobe: 0.1, depth: 6 };
+
     /// Both thresholds the same.
     pub fn with_threshold(threshold: f64) -> Self {
-        Self { border: threshold, lobe: threshold, depth: 6 }
+        Self { border: threshold, lobe: threshold, ..Self::DEFAULT }
     }
 }

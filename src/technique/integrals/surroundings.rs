@@ -5,15 +5,13 @@
 
 use glam::DVec3;
 
+use super::entry::NAME;
 use super::visibility::{Cap, Facet, Occluders};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::scene::light::{Gaussian, Light, Lights};
 use crate::scene::rays::{Rays, SurfacePoint};
 use crate::scene::surfaces::Surfaces;
 use crate::scene::{Form, Scene};
-
-/// The technique's name, for messages.
-const NAME: &str = "integrals";
 
 /// A spherical Gaussian: `amplitude * exp(sharpness * (axis . direction - 1))`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::Lobe;
 use super::cells::{Cell, Edge};
-use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::{Batch, Column, Columns, Results};
 use crate::program::{Input, Program};
-use crate::table::Table;
+use crate::technique::tables::{DOUBLE_PRODUCT, SPHERICAL_GAUSSIAN};
 
 /// The names of the numbers of the function of moments: ∫∫ ω, then ∫∫ ω ω.
 const MOMENTS: [&str; 9] = ["mx", "my", "mz", "mxx", "mxy", "myy", "mxz", "myz", "mzz"];
@@ -15,13 +15,13 @@ const MOMENTS: [&str; 9] = ["mx", "my", "mz", "mxx", "mxy", "myy", "mxz", "myz",
 /// The functions that are evaluated.
 #[derive(Debug)]
 pub struct Tables {
-    moments: Program,
+    moments: &'static Program,
     /// The index of each of [`MOMENTS`] among the numbers that the function returns.
     order: [usize; 9],
-    alpha: Program,
-    beta: Program,
+    alpha: &'static Program,
+    beta: &'static Program,
     #[cfg(feature = "gpu")]
-    interval: Program,
+    interval: &'static Program,
 }
 
 /// The integrals of direction, and of direction times direction, over the area that belongs to an edge.
@@ -36,23 +36,14 @@ pub struct Moments {
 /// A lobe in a cell as `alpha + beta * (axis . direction)`.
 type Line = (f64, f64);
 
-fn function(source: &'static str, text: &'static str, name: &str) -> Result<Program, Failure> {
-    let all = Program::check_all(&Table::parse(Source::new(source, text))?)?;
-    let named = |program: &Program| program.function.as_ref().is_some_and(|function| function.name == name);
-    all.into_iter().find(named).ok_or_else(|| {
-        Failure::bare(source, Diagnostic::error(codes::NOT_APPLICABLE, format!("the table has no function `{name}`")))
-    })
-}
-
 impl Tables {
     /// The tables that come with Umbrage.
     ///
     /// # Errors
     /// Never for these tables, which are tested.
     pub fn new() -> Result<Self, Failure> {
-        let double = ("tables/double_product.ron", include_str!("../../../tables/double_product.ron"));
-        let gaussian = ("tables/spherical_gaussian.ron", include_str!("../../../tables/spherical_gaussian.ron"));
-        let moments = function(double.0, double.1, "moments")?;
+        let (double, gaussian) = (&DOUBLE_PRODUCT, &SPHERICAL_GAUSSIAN);
+        let moments = double.function("moments")?;
         let names: Vec<String> = match &moments.output {
             crate::program::Output::Record(names) => names.iter().map(|name| name.to_ascii_lowercase()).collect(),
             _ => Vec::new(),
@@ -61,14 +52,14 @@ impl Tables {
         for (place, wanted) in order.iter_mut().zip(MOMENTS) {
             let Some(index) = names.iter().position(|name| name == wanted) else {
                 let message = format!("`moments` returns no `{wanted}`");
-                return Err(Failure::bare(double.0, Diagnostic::error(codes::NOT_APPLICABLE, message)));
+                return Err(Failure::bare(double.name, Diagnostic::error(codes::NOT_APPLICABLE, message)));
             };
             *place = index;
         }
-        let alpha = function(gaussian.0, gaussian.1, "alpha")?;
-        let beta = function(gaussian.0, gaussian.1, "beta")?;
+        let alpha = gaussian.function("alpha")?;
+        let beta = gaussian.function("beta")?;
         #[cfg(feature = "gpu")]
-        let interval = function(gaussian.0, gaussian.1, "interval")?;
+        let interval = gaussian.function("interval")?;
         Ok(Self {
             moments,
             order,
@@ -111,7 +102,7 @@ impl Tables {
         let rows = cells
             .iter()
             .flat_map(|cell| lobes.iter().zip(&cell.ranges).map(|(lobe, (a, b))| [1.0, lobe.sharpness, *a, *b]));
-        let columns = Self::columns(&self.alpha, ["mu", "lambda", "a", "b"], rows)?;
+        let columns = Self::columns(self.alpha, ["mu", "lambda", "a", "b"], rows)?;
         let alpha = evaluate(&mut interpreters.alpha, &columns)?;
         let beta = evaluate(&mut interpreters.beta, &columns)?;
         let lines = alpha.values(0).iter().zip(beta.values(0));
@@ -125,7 +116,7 @@ impl Tables {
             let [a, b] = edge.ends;
             [a.x, b.x, edge.theta, a.y, b.y]
         });
-        let columns = Self::columns(&self.moments, names, rows)?;
+        let columns = Self::columns(self.moments, names, rows)?;
         let results = evaluate(&mut interpreters.moments, &columns)?;
         let number = |which: usize, edge: usize| f64::from(results.values(self.order[which])[edge]);
         Ok((0..edges.len())
@@ -139,22 +130,18 @@ impl Tables {
     /// The moments of pieces.
     #[cfg(feature = "gpu")]
     pub(super) fn moments_of_pieces(&self) -> &Program {
-        &self.moments
+        self.moments
     }
 
     /// The functions of a shader that divides the directions by itself.
     #[cfg(feature = "gpu")]
     pub(super) fn for_shaders(&self) -> [&Program; 4] {
-        [&self.moments, &self.alpha, &self.beta, &self.interval]
+        [self.moments, self.alpha, self.beta, self.interval]
     }
 
     /// Interpreters for the functions.
     pub(super) fn interpreters(&self) -> Interpreters<'_> {
-        Interpreters {
-            moments: Batch::new(&self.moments),
-            alpha: Batch::new(&self.alpha),
-            beta: Batch::new(&self.beta),
-        }
+        Interpreters { moments: Batch::new(self.moments), alpha: Batch::new(self.alpha), beta: Batch::new(self.beta) }
     }
 }
 
