@@ -15,7 +15,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::{self, Beside, Target};
+use crate::emit::{self, SiblingFile, Target};
 use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::Program;
 use crate::prove::{Proof, is_unsuitable};
@@ -50,7 +50,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             shapes: vec![Shape::Ladder, Shape::Ordered, Shape::Switch],
-            targets: Target::DEFAULT.to_vec(),
+            targets: Target::defaults(),
             auto: true,
             tuned: Vec::new(),
             assume: false,
@@ -145,10 +145,10 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
     let proved = functions.iter().map(|f| Plan::proved(f, Shape::Ladder)).collect::<Result<Vec<_>, _>>()?;
     let table = functions.first().map_or(String::new(), |function| function.table().to_owned());
     let mut built = Built { table, plans: Vec::new(), skipped: Vec::new(), files: Vec::new() };
-    let beside = beside_each_other(options, "functions", false);
+    let siblings = sibling_files(options, "functions", false);
     for target in &options.targets {
         let path = Path::new(&built.table).join(format!("functions.{}", target.extension()));
-        built.files.push(Artifact { path, contents: emit::emit_all(&proved, *target, &beside)? });
+        built.files.push(Artifact { path, contents: emit::emit_all(&proved, *target, &siblings)? });
     }
     let proof = proved.iter().map(|proved| proved.proof().clone()).reduce(Proof::and);
     let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new() };
@@ -156,12 +156,12 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
     Ok(built)
 }
 
-/// The files of a plan, which lie beside each other.
-fn beside_each_other(options: &Options, name: &str, lookup: bool) -> Vec<Beside> {
+/// The files of a plan, which lie in one directory.
+fn sibling_files(options: &Options, name: &str, lookup: bool) -> Vec<SiblingFile> {
     let file = |extension: &str| format!("{name}.{extension}");
     let targets = options.targets.iter().map(|target| (Some(*target), file(target.extension())));
     let lookup = lookup.then(|| (None, file("lookup.bin")));
-    targets.chain(lookup).map(|(target, file)| Beside { target, file }).collect()
+    targets.chain(lookup).map(|(target, file)| SiblingFile { target, file }).collect()
 }
 
 /// Proves, emits and validates one checked table.
@@ -188,9 +188,9 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
             Err(failure) => return Err(failure),
         };
         let path = |extension: &str| Path::new(&program.name).join(format!("{name}.{extension}"));
-        let beside = beside_each_other(options, &name, shape.reads_buffer());
+        let siblings = sibling_files(options, &name, shape.reads_buffer());
         for target in &options.targets {
-            let contents = emit::emit_all(std::slice::from_ref(&proved), *target, &beside)?;
+            let contents = emit::emit_all(std::slice::from_ref(&proved), *target, &siblings)?;
             built.files.push(Artifact { path: path(target.extension()), contents });
         }
         if shape.reads_buffer() {

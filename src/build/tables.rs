@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 use super::{Batch, Options, Request, run, stamp, write};
 use crate::analyse::LintLevel;
 use crate::diag::{Diagnostic, Failure, Severity, codes};
-use crate::emit::{GlslVersion, Target};
+use crate::emit::Target;
 use crate::plan::Shape;
 
 /// The variable that names a directory for copies that people can read.
@@ -53,10 +53,10 @@ impl Tables {
 
     /// Emits GLSL of a version: 450, 330, or 300 for ES 3.0. There are no others, as [`Self::compile`] will say.
     pub fn glsl(mut self, version: u32) -> Self {
-        let version = match version {
-            450 => GlslVersion::V450,
-            330 => GlslVersion::V330,
-            300 => GlslVersion::Es300,
+        let target = match version {
+            450 => Target::Glsl450,
+            330 => Target::Glsl330,
+            300 => Target::GlslEs300,
             _ => {
                 let error = Diagnostic::error(codes::NOT_APPLICABLE, format!("GLSL {version} is no target"));
                 let error = error.help("the versions are: 450, 330, and 300 for ES 3.0");
@@ -64,7 +64,7 @@ impl Tables {
                 return self;
             }
         };
-        self.target(Target::Glsl(version))
+        self.target(target)
     }
 
     /// Emits a module of WESL.

@@ -26,7 +26,8 @@ use crate::program::{Domain, Program};
 use crate::prove::{Proved, is_unsuitable};
 use crate::show::{Precision, sentence};
 
-pub use crate::points::comparison::{Effort, Point, Points};
+pub use crate::points::Point;
+pub use crate::points::comparison::{Effort, Points};
 
 /// Points that are evaluated together.
 const BATCH: usize = 100_000;

@@ -1,29 +1,17 @@
-//! What stands before WGSL that is a module: its name, and what it imports.
+//! The imports of WGSL that is a module.
 //!
-//! What the host supplies cannot be seen by a module unless it is imported, so
+//! A module cannot see what the host supplies unless it imports it, so
 //! it is expected in a module of the host with a fixed name.
 
-use super::Target;
 use super::language::Prefix;
 use super::names::fetches;
 use crate::prove::Proved;
 
-/// The first lines of a module; empty for WGSL that is none.
-pub(super) fn head(plans: &[Proved<'_>], target: Target) -> String {
+/// The line that imports what the host supplies, from the table's name and the items; empty if there is nothing.
+pub(super) fn import(plans: &[Proved<'_>], line: impl Fn(&str, &str) -> String) -> String {
     let Some(first) = plans.first() else { return String::new() };
-    let table = first.plan().program.table();
     let items: Vec<String> = plans.iter().flat_map(supplied).collect();
-    let import = |keyword: &str, path: String, end: &str| match items.is_empty() {
-        true => String::new(),
-        false => format!("{keyword} {path}_host::{{{}}}{end}\n", items.join(", ")),
-    };
-    match target {
-        Target::Wesl => import("import", format!("package::{table}"), ";"),
-        Target::NagaOil => {
-            format!("#define_import_path umbrage::{table}\n") + &import("#import", format!("umbrage::{table}"), "")
-        }
-        _ => String::new(),
-    }
+    if items.is_empty() { String::new() } else { line(first.plan().program.table(), &items.join(", ")) }
 }
 
 /// The names that the host supplies.

@@ -1,4 +1,4 @@
-//! What a generated module consists of, in every language.
+//! The parts of a generated module, in every language.
 //!
 //! One function decides, on the packed key: `…_key_case`. The other entry
 //! points wrap it: with levels as `f32` for code that carries them so, and
@@ -43,7 +43,7 @@ struct Writer<'a, 'p> {
     text: Text,
 }
 
-/// What a file says of itself, as comments: what it is, and what it was made from.
+/// The comments that a file begins with: its contents and its origin.
 pub(super) fn header(proved: &Proved<'_>) -> String {
     let mut text = Text::default();
     let names = Names::new(proved.plan().program);
@@ -367,7 +367,7 @@ fn describe_key(program: &Program, key: &KeyLayout) -> String {
     fields.collect::<Vec<_>>().join(", ")
 }
 
-/// Whether some operation occurs anywhere.
+/// Returns whether an operation occurs anywhere.
 fn uses(plan: &Plan<'_>, operation: impl Fn(Node) -> bool) -> bool {
     plan.pool.nodes().any(operation)
 }

@@ -9,7 +9,7 @@ use crate::program::{Domain, InputId, LevelKind, Levels, Program};
 pub(super) struct Names {
     /// File name of the table, for comments.
     pub(super) file: String,
-    /// What names of temporaries start with; nothing that the table names looks like one.
+    /// The prefix of the names of temporaries; nothing that the table names looks like one.
     pub(super) temporary: String,
     /// Names that a local must not have: they mean something else where locals stand.
     hidden: BTreeSet<String>,
@@ -79,7 +79,7 @@ impl Names {
         Self { file, temporary, hidden, default, miss, sets }
     }
 
-    /// Whether a local of this name would hide something.
+    /// Returns whether a local of this name would hide something.
     pub(super) fn hides(&self, name: &str) -> bool {
         self.hidden.contains(name)
     }

@@ -17,7 +17,7 @@ const STACK: usize = 256 << 20;
 pub struct Validated {
     /// The module.
     pub module: naga::Module,
-    /// What validation found out about it.
+    /// The results of its validation.
     pub info: ModuleInfo,
 }
 

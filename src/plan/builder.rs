@@ -22,13 +22,13 @@ const MAX_STEPS: usize = 200_000;
 const MAX_DEPTH: usize = 400;
 /// Most tests, guards and lines that are gone through, over all ways to come to them.
 const MAX_TAKEN_APART: usize = 2_000_000;
-/// What helps against too many ways.
+/// The advice against too many paths.
 const SPLIT: &str = "split cases in which many lines or choices depend on fetched inputs";
 
 pub(super) type Result<T> = std::result::Result<T, String>;
 /// Rows that may be taken, with what is left of their guards.
 pub(super) type Guarded = Vec<(usize, CondId)>;
-/// What to do with a condition that came out one way.
+/// The continuation for one outcome of a condition.
 type Next<'a, 'p> = &'a dyn Fn(&mut Builder<'p>, &Knowledge) -> Result<StepId>;
 
 pub(super) struct Builder<'p> {
@@ -44,11 +44,11 @@ pub(super) struct Builder<'p> {
 /// A chain of rows that is being made.
 struct Chain<'a> {
     rows: &'a [(usize, CondId)],
-    /// What is known in front of it.
+    /// The knowledge in front of it.
     known: &'a Knowledge,
     /// By place, the fetched inputs that the rows from there on, or the default, mention.
     mentioned: Vec<InputSet>,
-    /// What was made from a place on, where some of those inputs were fetched.
+    /// The steps made from a place on, where some of those inputs were fetched.
     made: RefCell<HashMap<(usize, InputSet), StepId>>,
 }
 
@@ -104,12 +104,12 @@ impl<'p> Builder<'p> {
         }
     }
 
-    /// How many steps were made.
+    /// The number of steps made.
     pub(super) fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// Whether a test or a result mentions an input.
+    /// Returns whether a test or a result mentions an input.
     pub(super) fn mentions(&self, input: InputId) -> bool {
         self.steps.iter().any(|step| match step {
             Step::Test { condition, .. } | Step::Gather { condition, .. } => {
@@ -235,7 +235,7 @@ impl<'p> Builder<'p> {
         Ok(step)
     }
 
-    /// Whether a condition can come out as `value` before anything more is fetched. It may say no
+    /// Returns whether a condition can come out as `value` before anything more is fetched. It may say no
     /// where it can: a plan then nests deeper than it must.
     fn may_be(&self, condition: CondId, value: bool, known: &Knowledge) -> bool {
         match self.pool.cond(condition) {

@@ -7,7 +7,7 @@ use crate::program::{BinaryOp, ExprId, InputId, Pool, TernaryOp};
 pub struct Coefficients {
     /// The inputs that are multiplied, in the order in which the products are added.
     pub inputs: Vec<InputId>,
-    /// How many sums a value is the minimum of.
+    /// The number of sums that a value is the minimum of.
     pub width: usize,
     /// The bounds that every value is clamped to.
     pub clamp: Option<(f64, f64)>,
@@ -38,7 +38,7 @@ pub struct Piece {
 /// A sum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Form {
-    /// What it begins with.
+    /// The first summand.
     pub constant: f64,
     /// The factor of each of [`Coefficients::inputs`].
     pub factors: Vec<f64>,

@@ -12,20 +12,20 @@ pub struct StepId(pub(super) u32);
 /// A step of a decision.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub enum Step {
-    /// Goes one of two ways. The condition mentions no input that is not yet fetched.
+    /// Takes one of two branches. The condition mentions no input that is not yet fetched.
     Test {
         /// The condition.
         condition: CondId,
-        /// Where to go if it holds.
+        /// The next step if it holds.
         then: StepId,
-        /// Where to go if not.
+        /// The next step if not.
         other: StepId,
     },
     /// Fetches an input.
     Fetch {
         /// The input.
         input: InputId,
-        /// Where to go then.
+        /// The next step.
         next: StepId,
     },
     /// Fetches an input if a condition holds, and goes on either way, with the first level or
@@ -35,25 +35,25 @@ pub enum Step {
         input: InputId,
         /// When it is needed.
         condition: CondId,
-        /// Where to go then.
+        /// The next step.
         next: StepId,
     },
     /// Goes where the lookup says; only at the root or behind [`Step::Gather`].
     Switch {
-        /// The ways.
+        /// The arms.
         arms: Vec<StepId>,
     },
-    /// The result that coefficients give, or one of the other ways, as the lookup
+    /// The result that coefficients give, or one of the other arms, as the lookup
     /// says: the coefficients come first in its numbering; only at the root or behind [`Step::Gather`].
     Coefficients {
-        /// The ways of states without coefficients.
+        /// The arms of states without coefficients.
         rest: Vec<StepId>,
     },
-    /// Turns the inputs by symmetries, goes one of the ways, turns the result back.
-    /// The lowest bits of the lookup say by which symmetries, the others which way;
+    /// Turns the inputs by symmetries, takes one of the arms, turns the result back.
+    /// The lowest bits of the lookup say by which symmetries, the others which arm;
     /// only at the root or behind [`Step::Gather`].
     Orbit {
-        /// The ways.
+        /// The arms.
         arms: Vec<StepId>,
     },
     /// The result.
@@ -86,23 +86,23 @@ pub struct Leaf {
 /// A way to evaluate a program.
 #[derive(Debug, Clone)]
 pub struct Plan<'p> {
-    /// What it evaluates.
+    /// The program that it evaluates.
     pub program: &'p Program,
-    /// Which shape it has.
+    /// Its shape.
     pub shape: Shape,
-    /// Whether it may do anything where the assumptions do not hold.
+    /// True if it may do anything where the assumptions do not hold.
     pub assumed: bool,
     /// The origin of the weights that it was made for.
     pub weights_origin: Option<String>,
     /// A hash of everything that it was made from: texts, weights and options.
     pub inputs: u64,
-    /// How good it is of its kind, where that is known.
+    /// Its cost and a bound on the best one of its kind, where that is known.
     pub certificate: Option<Certificate>,
     /// The program's terms and those that planning made of them.
     pub pool: Pool,
-    /// How the discrete inputs are packed into a key.
+    /// The layout of the key that the discrete inputs are packed into.
     pub key: KeyLayout,
-    /// What the lookup says of every state, by [`StateSpace`](crate::program::StateSpace) number; empty if there is none.
+    /// The entry of the lookup for every state, by [`StateSpace`](crate::program::StateSpace) number; empty if there is none.
     pub lookup: Vec<u16>,
     /// For [`Step::Coefficients`].
     pub coefficients: Coefficients,
@@ -121,7 +121,7 @@ impl Plan<'_> {
         &self.steps[id.0 as usize]
     }
 
-    /// Where evaluation starts.
+    /// The step at which evaluation starts.
     pub fn root(&self) -> StepId {
         self.root
     }
@@ -162,7 +162,7 @@ impl Plan<'_> {
     pub fn reachable(&self) -> Vec<StepId> {
         let mut order = Vec::new();
         let mut seen = vec![false; self.steps.len()];
-        // Beside each step, whether what follows it was put on the stack already.
+        // With each step, whether its successors were put on the stack already.
         let mut open = vec![(self.root, false)];
         while let Some((at, done)) = open.pop() {
             if done {

@@ -5,7 +5,7 @@ use crate::program::{InputId, LevelSet, Program};
 /// Most bits of a key whose lookup lies in a buffer.
 pub(super) const MAX_BUFFER_BITS: u32 = 24;
 
-/// Where each discrete input sits in the key.
+/// The places of the discrete inputs in the key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyLayout {
     fields: Vec<KeyField>,

@@ -1,10 +1,10 @@
-//! What is known on the way to a step, and what it makes of a term.
+//! The facts known on the way to a step, and the terms that they simplify.
 
 use std::collections::HashMap;
 
 use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
 
-/// What holds at a step.
+/// The facts that hold at a step.
 #[derive(Debug, Clone)]
 pub(super) struct Knowledge {
     /// Inputs that were fetched.
@@ -105,7 +105,7 @@ impl Knowledge {
 
     /// An expression, with everything known put in. Only selections are
     /// resolved; arithmetic stays as it is, so that rounding does. What becomes
-    /// constant is folded if nobody can tell; otherwise it is computed when the
+    /// constant is folded if the result is bit-identical; otherwise it is computed when the
     /// shader runs: `1 / f32(n)` with `n` known to be 0 would be a constant that
     /// shading languages refuse.
     pub(super) fn expr(&self, pool: &mut Pool, expr: ExprId) -> ExprId {

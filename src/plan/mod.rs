@@ -38,7 +38,7 @@ pub struct PlanOptions<'w> {
     pub shape: Shape,
     /// The frequency of each state; without, every state counts alike.
     pub weights: Option<&'w Weights>,
-    /// Whether the plan may do anything where the table's assumptions do not hold.
+    /// True if the plan may do anything where the table's assumptions do not hold.
     pub assume: bool,
 }
 

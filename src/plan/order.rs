@@ -17,7 +17,7 @@ const MAX_SETS: usize = 1 << 19;
 /// Most tests whose sets fit a mask.
 const MAX_EXACT: usize = 64;
 
-/// What an order costs, and how good it is.
+/// The cost of an order, and a bound on the best one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certificate {
     /// Expected number of tests in the order written.
@@ -29,7 +29,7 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// Whether no plan of this shape is better.
+    /// Returns whether no plan of this shape is better.
     pub fn is_optimal(&self) -> bool {
         self.planned - self.bound <= 1e-9 * self.planned.max(1.0)
     }
@@ -48,11 +48,11 @@ impl fmt::Display for Certificate {
 /// Tests that are to be put in order.
 #[derive(Debug, Clone)]
 pub(super) struct Tests {
-    /// How often each is where evaluation ends.
+    /// The share of evaluations that end at each.
     pub(super) weights: Vec<f64>,
     /// Those that each must stay behind.
     pub(super) before: Vec<Vec<usize>>,
-    /// How often evaluation passes all of them.
+    /// The share of evaluations that pass all of them.
     pub(super) passed: f64,
 }
 

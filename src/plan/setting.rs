@@ -1,4 +1,4 @@
-//! What a plan is made for: the states that count, and how much each does.
+//! The setting of a plan: the states that count, and the share of each.
 
 use super::{PlanOptions, Shape, Weights};
 use crate::diag::fnv1a;
@@ -16,7 +16,7 @@ pub(super) struct Setting<'p, 'w> {
     pub(super) states: Vec<usize>,
     /// The share of each of them.
     pub(super) shares: Vec<f64>,
-    /// Whether the plan may do anything where the assumptions do not hold.
+    /// True if the plan may do anything where the assumptions do not hold.
     pub(super) assume: bool,
     /// A hash of everything that the plan is made from.
     pub(super) inputs: u64,
@@ -59,7 +59,7 @@ impl<'p, 'w> Setting<'p, 'w> {
         })
     }
 
-    /// Whether the path of a machine is one that counts.
+    /// Returns whether the path of a machine is one that counts.
     pub(super) fn assumptions_hold(&self, machine: &mut Machine<'_>) -> bool {
         let mut assumptions = self.program.assumptions.iter();
         !self.assume || assumptions.all(|assumption| machine.holds(assumption.condition, View::PLAIN))

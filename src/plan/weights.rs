@@ -1,4 +1,4 @@
-//! How often each discrete state occurs: what a plan is the best one for.
+//! The frequencies of the discrete states, for which a plan is the best one.
 
 use crate::program::Program;
 
@@ -40,12 +40,12 @@ impl Weights {
         self.of_state[state]
     }
 
-    /// How many there are.
+    /// The number of states.
     pub fn count(&self) -> usize {
         self.of_state.len()
     }
 
-    /// Where they come from.
+    /// Their origin.
     pub fn origin(&self) -> &str {
         &self.origin
     }

@@ -7,11 +7,12 @@
 
 use std::collections::BTreeSet;
 
+use super::Point;
 use super::random::Random;
 use crate::eval::{Interpreter, NeedsFetch, Samples};
 use crate::program::{BinaryOp, Cond, CondId, Domain, ExprId, InputId, Node, Program, Value};
 
-/// How many points per state.
+/// The number of points per state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Effort {
     /// Most points of the grid.
@@ -28,9 +29,6 @@ impl Default for Effort {
     }
 }
 
-/// A point: one value per input.
-pub type Point = Vec<Option<Value>>;
-
 /// Makes points.
 pub struct Points<'p> {
     program: &'p Program,
@@ -39,7 +37,7 @@ pub struct Points<'p> {
     continuous: Vec<(InputId, f64, f64)>,
     /// Two expressions that are compared somewhere.
     comparisons: Vec<(ExprId, ExprId)>,
-    /// Whether only points count at which the assumptions hold.
+    /// True if only points count at which the assumptions hold.
     assumed: bool,
     random: Random,
 }
@@ -135,7 +133,7 @@ impl<'p> Points<'p> {
         points
     }
 
-    /// Where a grid would be too large, some corners of the ranges: the lowest, the highest, and random ones.
+    /// If a grid would be too large, some corners of the ranges: the lowest, the highest, and random ones.
     fn corners(&mut self, base: &Point) -> Vec<Point> {
         let mut points = vec![base.clone(); self.effort.grid.max(2)];
         for (number, point) in points.iter_mut().enumerate() {

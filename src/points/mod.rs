@@ -1,6 +1,11 @@
-//! Points of the input space, and how they are chosen.
+//! Points of the input space, and the ways to choose them.
+
+use crate::program::Value;
 
 #[cfg(feature = "gpu")]
 pub(crate) mod comparison;
 pub mod random;
 pub(crate) mod sample;
+
+/// A point: one value per input; fetched ones may be absent until they are asked for.
+pub type Point = Vec<Option<Value>>;

@@ -4,17 +4,15 @@
 //! Ranges are generous, and most of a box may lie outside of the conditions
 //! that a function states, so points are drawn until they hold.
 
+use super::Point;
 use super::random::Random;
 use crate::eval::Interpreter;
 use crate::program::{Domain, Program, Value};
 
-/// A point: one value per input.
-type Point = Vec<Option<Value>>;
-
 /// Most tries for one point.
 const TRIES: usize = 50;
 
-/// Where a range has no end that one would think of, points are drawn from this much of it.
+/// The part of an unbounded range that points are drawn from.
 const USUAL: f64 = 4.0;
 
 /// Draws points; the same ones every time.
@@ -33,7 +31,8 @@ impl<'p> Samples<'p> {
     /// The examples and further points, up to `count` of these; fewer if the conditions are hard to meet.
     pub fn take(&mut self, count: usize) -> Vec<Point> {
         let examples: Vec<Point> = self.program.examples.iter().map(|example| single(&example.inputs)).collect();
-        let mut points: Vec<Point> = examples.iter().filter(|point| self.is_meant(point)).cloned().collect();
+        let mut points: Vec<Point> =
+            examples.iter().filter(|point| self.satisfies_assumptions(point)).cloned().collect();
         for number in 0..count {
             for _ in 0..TRIES {
                 let point = match examples.get(number / 2 % examples.len().max(1)) {
@@ -41,7 +40,7 @@ impl<'p> Samples<'p> {
                     _ => self.anywhere(),
                 };
                 let point = single(&point);
-                if self.is_meant(&point) {
+                if self.satisfies_assumptions(&point) {
                     points.push(point);
                     break;
                 }
@@ -50,8 +49,8 @@ impl<'p> Samples<'p> {
         points
     }
 
-    /// Whether the conditions of the program hold at a point.
-    pub fn is_meant(&mut self, point: &Point) -> bool {
+    /// Returns whether the conditions of the program hold at a point.
+    pub fn satisfies_assumptions(&mut self, point: &Point) -> bool {
         let program = self.program;
         self.interpreter.place(point).is_ok()
             && program.assumptions.iter().all(|a| self.interpreter.holds(a.condition) == Ok(true))

@@ -27,12 +27,12 @@ use super::{
 /// Most paths of one state that are looked at. Published tables have a few dozen.
 const MAX_PATHS: usize = 1 << 14;
 
-/// What the inputs mean: themselves, or their images under a symmetry.
+/// The meaning of the inputs: themselves, or their images under a symmetry.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct View<'s> {
     /// Whose images the inputs stand for.
     pub(crate) symmetry: Option<&'s Symmetry>,
-    /// What the result stands for, in the result map of a symmetry.
+    /// The value of the result, in the result map of a symmetry.
     pub(crate) result: Option<ExprId>,
 }
 
@@ -64,7 +64,7 @@ struct Choice {
 /// Runs a program along paths.
 pub(crate) struct Machine<'p> {
     program: &'p Program,
-    /// Where conditions are looked up.
+    /// The pool of the conditions.
     conditions: &'p Pool,
     pool: Pool,
     normaliser: Normaliser,
@@ -83,7 +83,7 @@ pub(crate) struct Machine<'p> {
     gave_up: bool,
 }
 
-/// What a difference of two numbers is.
+/// The kind of a difference of two numbers.
 #[derive(Clone, Copy)]
 enum Difference {
     Constant(Sign),
@@ -151,7 +151,7 @@ impl<'p> Machine<'p> {
         &mut self.pool
     }
 
-    /// Whether the last state had more paths than were followed.
+    /// Returns whether the last state had more paths than were followed.
     pub(crate) fn gave_up(&self) -> bool {
         self.gave_up
     }
@@ -207,7 +207,7 @@ impl<'p> Machine<'p> {
         }
     }
 
-    /// Whether a condition holds on this path.
+    /// Returns whether a condition holds on this path.
     pub(crate) fn holds(&mut self, condition: CondId, view: View<'_>) -> bool {
         // Resolving makes expressions but no conditions, so these are all.
         let conditions = self.conditions;
@@ -420,7 +420,7 @@ impl<'p> Machine<'p> {
         }
     }
 
-    /// Whether two resolved results are equal on this path, over the reals.
+    /// Returns whether two resolved results are equal on this path, over the reals.
     pub(crate) fn equal(&mut self, a: &[ExprId], b: &[ExprId]) -> bool {
         a.iter().zip(b).all(|(a, b)| self.equal_numbers(*a, *b))
     }

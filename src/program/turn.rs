@@ -6,7 +6,7 @@ use super::claims::decide;
 use super::symbolic::{Machine, View};
 use super::{ExprId, InputId, InputSet, LevelTerm, Node, Pool, Program, Symmetry};
 
-/// Whether a symmetry maps inputs in ways that can be applied one after the
+/// Returns whether a symmetry maps inputs in ways that can be applied one after the
 /// other: levels of a state by the state alone, fetched inputs to fetched
 /// inputs with their levels renamed, numbers without selections.
 pub(crate) fn is_usable(program: &Program, symmetry: &Symmetry) -> bool {
@@ -76,12 +76,12 @@ pub(crate) fn renamed(term: &LevelTerm) -> Option<(InputId, Option<Vec<u8>>)> {
     }
 }
 
-/// What a word of symmetries makes of the inputs of one state, as one symmetry.
+/// The symmetries of a word, one after the other, on the inputs of one state, as one symmetry.
 #[derive(Debug, Clone)]
 pub(crate) struct Turn {
     /// The images of the inputs.
     pub(crate) symmetry: Symmetry,
-    /// How the result is turned back, the last symmetry first.
+    /// The maps that turn the result back, the last symmetry first.
     results: Vec<ExprId>,
     identity: bool,
 }
@@ -177,12 +177,12 @@ impl Turn {
         }
     }
 
-    /// Whether no symmetry is applied.
+    /// Returns whether no symmetry is applied.
     pub(crate) fn is_identity(&self) -> bool {
         self.identity
     }
 
-    /// What the inputs are seen as.
+    /// The view of the inputs.
     pub(crate) fn view(&self) -> View<'_> {
         View { symmetry: Some(&self.symmetry), result: None }
     }

@@ -107,7 +107,7 @@ impl Oracle {
         0
     }
 
-    /// What was answered on this path, if the question was asked.
+    /// The answer on this path, if the question was asked.
     fn known(&self, question: Question) -> Option<u8> {
         self.asked.get(&question).map(|place| self.choices[*place].1)
     }
@@ -143,7 +143,7 @@ struct Prover<'a, 'p> {
     /// Inputs that the plan declares but has not fetched on this path: code finds their first level
     /// or least value there. Empty while the program runs.
     absent: InputSet,
-    /// Where the paths of each state begin.
+    /// The step at which the paths of each state begin.
     starts: Vec<StepId>,
     identical: usize,
     paths: usize,
@@ -333,7 +333,7 @@ impl<'p> Prover<'_, 'p> {
         }
     }
 
-    /// Whether a condition of the plan holds, which may mention what is declared.
+    /// Returns whether a condition of the plan holds, which may mention what is declared.
     fn tested(&mut self, condition: CondId, declared: InputSet) -> Result<bool, String> {
         self.only_fetched(self.plan.pool.cond_facts(condition).inputs, declared)?;
         Ok(self.holds(condition, &mut InputSet::default()))
@@ -384,7 +384,7 @@ impl<'p> Prover<'_, 'p> {
         }
     }
 
-    /// What a path comes to. Without fetched inputs it does not matter which
+    /// The results of a path. Without fetched inputs it does not matter which
     /// selections are made: if both sides have the same one, it stays as it is,
     /// so that functions with many selections do not have a path for every combination.
     fn results(&mut self, values: &[ExprId], fetched: &mut InputSet) -> Vec<ExprId> {
@@ -433,7 +433,7 @@ impl<'p> Prover<'_, 'p> {
         result
     }
 
-    /// Whether a condition holds, if this path has decided that already.
+    /// Returns whether a condition holds, if this path has decided that already.
     fn decides(&self, condition: CondId) -> Option<bool> {
         match self.plan.pool.cond(condition) {
             Cond::Const(value) => Some(*value),

@@ -65,12 +65,12 @@ struct Prover<'a, 'p> {
     proof: Proof,
     /// Bounds of the rounding of expressions.
     errors: HashMap<ExprId, Option<f64>>,
-    /// Whether the plan compares numbers.
+    /// True if the plan compares numbers.
     compares: bool,
     candidates: Candidates,
 }
 
-/// Whether what follows the lookup compares numbers, or chooses between values.
+/// Returns whether a plan compares numbers, or chooses between values, behind its lookup.
 fn compares(plan: &Plan<'_>) -> bool {
     plan.reachable().into_iter().any(|step| match plan.step(step) {
         Step::Test { condition, .. } => plan.pool.compares(*condition),

@@ -11,7 +11,7 @@ use crate::program::Program;
 pub struct Proof {
     /// Discrete states gone through.
     pub states: usize,
-    /// Whether these are only the states in which the assumptions can hold.
+    /// True if these are only the states in which the assumptions can hold.
     pub assumed: bool,
     /// Paths gone through: states, times the answers of fetches and comparisons.
     pub paths: usize,

@@ -1,4 +1,4 @@
-//! How far two expressions that are equal over the reals can differ in `f32`.
+//! A bound on the difference in `f32` between expressions that are equal over the reals.
 
 use std::collections::HashMap;
 

@@ -9,14 +9,15 @@ pub(crate) mod wgpu;
 
 use super::language::rust::Rust;
 use super::language::{Dialect, Prefix, Type};
+use super::module;
 use super::names::{Names, fetches, input_type};
+use super::targets::{Constant, Target};
 use super::text::{Text, harmless};
-use super::{GlslVersion, Target, module};
 use crate::plan::KeyLayout;
 use crate::program::{Domain, Input, LevelKind, Program};
 use crate::prove::Proved;
 
-/// What a Rust module offers besides functions. Each has all that the one before it has.
+/// The extras of a Rust module besides its functions. Each has all that the one before it has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Host {
     /// Needs no other crate.
@@ -29,39 +30,25 @@ pub(super) enum Host {
 
 /// A file that lies in the directory of a Rust module, which makes a constant of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Beside {
+pub struct SiblingFile {
     /// Its target, or `None` for the words of a lookup.
     pub target: Option<Target>,
     /// Its name.
     pub file: String,
 }
 
-impl Beside {
+impl SiblingFile {
     /// The constant, unless it is Rust itself.
     fn constant(&self) -> Option<String> {
-        let (doc, name, text) = match self.target {
-            None => ("The words of the lookup, little-endian.", "LOOKUP", false),
-            Some(Target::Wgsl) => ("The WGSL.", "WGSL", true),
-            Some(Target::Wesl) => ("The WESL module.", "WESL", true),
-            Some(Target::NagaOil) => ("The module for naga_oil.", "NAGA_OIL", true),
-            Some(Target::Glsl(GlslVersion::V450)) => ("The library for GLSL 450.", "GLSL_450", true),
-            Some(Target::Glsl(GlslVersion::V330)) => ("The library for GLSL 330.", "GLSL_330", true),
-            Some(Target::Glsl(GlslVersion::Es300)) => ("The library for GLSL ES 300.", "GLSL_ES_300", true),
-            Some(Target::SpirV) => ("The compute shader as SPIR-V.", "SPIRV", false),
-            Some(Target::Hlsl) => ("The compute shader as HLSL.", "HLSL", true),
-            Some(Target::Msl) => ("The compute shader as MSL.", "MSL", true),
-            Some(Target::Rust | Target::RustBytemuck | Target::RustWgpu) => return None,
-        };
-        let file = &self.file;
-        Some(match text {
-            true => format!("/// {doc}\npub const {name}: &str = include_str!(\"{file}\");"),
-            false => format!("/// {doc}\npub const {name}: &[u8] = include_bytes!(\"{file}\");"),
-        })
+        let lookup = Constant { doc: "The words of the lookup, little-endian.", name: "LOOKUP", text: false };
+        let Constant { doc, name, text } = self.target.map_or(Some(lookup), Target::constant)?;
+        let (ty, include) = if text { ("&str", "include_str") } else { ("&[u8]", "include_bytes") };
+        Some(format!("/// {doc}\npub const {name}: {ty} = {include}!(\"{}\");", self.file))
     }
 }
 
 /// The Rust modules of plans, one after the other.
-pub(super) fn modules(plans: &[Proved<'_>], host: Host, beside: &[Beside]) -> String {
+pub(super) fn modules(plans: &[Proved<'_>], host: Host, siblings: &[SiblingFile]) -> String {
     let mut out = String::new();
     for (index, proved) in plans.iter().enumerate() {
         if index > 0 {
@@ -73,26 +60,26 @@ pub(super) fn modules(plans: &[Proved<'_>], host: Host, beside: &[Beside]) -> St
         let side = Side { proved, program, prefix: Prefix::new(&program.name), names: Names::new(program), host };
         side.write(&mut text);
         if program.function.is_none() {
-            sources(&mut text, beside);
+            sources(&mut text, siblings);
         }
         out += &text.finish();
         out += "}\n";
     }
     let table = plans.first().map(|proved| proved.plan().program).filter(|program| program.function.is_some());
-    if let Some(table) = table.filter(|_| beside.iter().any(|file| file.constant().is_some())) {
+    if let Some(table) = table.filter(|_| siblings.iter().any(|file| file.constant().is_some())) {
         // The functions share their files.
         let mut text = Text::default();
         text.gap();
         text.open(format!("#[allow(dead_code, missing_docs, unreachable_pub)]\npub mod {} {{", table.table()));
-        sources(&mut text, beside);
+        sources(&mut text, siblings);
         text.close();
         out += &text.finish();
     }
     out
 }
 
-fn sources(text: &mut Text, beside: &[Beside]) {
-    let constants: Vec<String> = beside.iter().filter_map(Beside::constant).collect();
+fn sources(text: &mut Text, siblings: &[SiblingFile]) {
+    let constants: Vec<String> = siblings.iter().filter_map(SiblingFile::constant).collect();
     if constants.is_empty() {
         return;
     }
@@ -104,7 +91,7 @@ fn sources(text: &mut Text, beside: &[Beside]) {
     text.close();
 }
 
-/// What is being written.
+/// The module that is being written.
 pub(super) struct Side<'a, 'p> {
     pub(super) proved: &'a Proved<'p>,
     pub(super) program: &'p Program,
@@ -228,7 +215,7 @@ impl Side<'_, '_> {
         text.gap();
     }
 
-    /// What [`Self::inputs`] consists of besides the key.
+    /// The parts of [`Self::inputs`] besides the key.
     fn continuous(&self) -> impl Iterator<Item = &Input> {
         let plain = self.program.inputs.iter().filter(|input| input.fetched.is_none());
         plain.filter(|input| matches!(input.domain, Domain::Continuous { .. }))
@@ -276,7 +263,7 @@ impl Side<'_, '_> {
         text.close();
     }
 
-    /// Whether the shader reads a lookup.
+    /// Returns whether the shader reads a lookup.
     pub(super) fn has_lookup(&self) -> bool {
         self.proved.plan().reads_lookup()
     }

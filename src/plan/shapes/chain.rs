@@ -46,7 +46,7 @@ fn ordered<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     Ok(plan)
 }
 
-/// What the guards cost in the order written.
+/// The cost of the guards in the order written.
 pub(super) fn written(setting: &Setting<'_, '_>) -> Result<f64> {
     let everywhere: Vec<usize> = (0..setting.states.len()).collect();
     let (tests, rows) = tests(setting, &everywhere)?;

@@ -250,7 +250,7 @@ fn product(program: &Program, pool: &mut Pool, levels: &[LevelSet]) -> CondId {
 /// Finds boxes of states.
 struct Covering<'p> {
     program: &'p Program,
-    /// Whether each state counts; the others may be in any box.
+    /// The states that count; the others may be in any box.
     counts: Vec<bool>,
 }
 

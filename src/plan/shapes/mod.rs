@@ -21,11 +21,11 @@ use super::setting::Setting;
 pub(super) struct Definition {
     /// The name on the command line and in file names.
     name: &'static str,
-    /// What it does, in a line.
+    /// A line that describes it.
     summary: &'static str,
-    /// Whether its code reads a buffer of the host, which holds the lookup.
+    /// True if its code reads a buffer of the host, which holds the lookup.
     reads_buffer: bool,
-    /// Whether it chooses by the key, so that it does not suit functions without discrete inputs.
+    /// True if it chooses by the key, so that it does not suit functions without discrete inputs.
     needs_key: bool,
     /// Plans a program.
     plan: for<'p> fn(&Setting<'p, '_>) -> Result<Plan<'p>>,
@@ -80,7 +80,7 @@ impl Shape {
         self.definition().name
     }
 
-    /// What the code does, in a line.
+    /// A line that describes the code.
     pub fn summary(self) -> &'static str {
         self.definition().summary
     }
@@ -111,5 +111,20 @@ impl Shape {
 impl fmt::Display for Shape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_and_documented() {
+        let document = include_str!("../../../docs/tuning.md");
+        for shape in Shape::ALL {
+            assert_eq!(Shape::from_name(shape.name()), Some(shape));
+            let name = format!("`{shape}`");
+            assert!(document.contains(&name), "docs/tuning.md does not mention {name}");
+        }
     }
 }

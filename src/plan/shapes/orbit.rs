@@ -118,7 +118,7 @@ fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     Ok(plan)
 }
 
-/// Where each symmetry takes each state, if the table has it there.
+/// The image of each state under each symmetry, if the table has it there.
 fn images(setting: &Setting<'_, '_>, symmetries: &[usize]) -> Vec<HashMap<usize, usize>> {
     let program = setting.program;
     let mut machine = Machine::new(program);
@@ -134,7 +134,7 @@ fn images(setting: &Setting<'_, '_>, symmetries: &[usize]) -> Vec<HashMap<usize,
     all.collect()
 }
 
-/// Whether the table has a symmetry in a state: everywhere, or where the assumptions hold.
+/// Returns whether the table has a symmetry in a state: everywhere, or where the assumptions hold.
 fn has(machine: &mut Machine<'_>, setting: &Setting<'_, '_>, symmetry: &Symmetry, state: usize) -> bool {
     let image = View { symmetry: Some(symmetry), result: None };
     let broken = machine.any_path(state, |machine| {

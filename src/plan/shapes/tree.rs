@@ -75,8 +75,8 @@ fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     Ok(plan)
 }
 
-/// What fetches cost on average, whatever the tree: the state alone decides which way is gone. Where
-/// a way tests what the state leaves open, both sides are thought to be as likely.
+/// The average cost of fetches, the same in every tree: the state alone decides the arm. Where
+/// an arm tests what the state leaves open, both sides are thought to be as likely.
 fn fetch_cost(builder: &Builder<'_>, setting: &Setting<'_, '_>, starts: &[StepId]) -> Option<f64> {
     let program = setting.program;
     if program.fetched.is_empty() || setting.states.len() * builder.len() > MAX_LOOKS {
@@ -140,7 +140,7 @@ type Question = (usize, LevelSet);
 
 struct Planner<'a> {
     levels: Vec<Vec<u8>>,
-    /// Where each state must come to.
+    /// The step that each state must come to.
     ways: Vec<StepId>,
     shares: &'a [f64],
     /// By step, the share of the states that go there, while it is added up; otherwise zero.
@@ -207,7 +207,7 @@ impl Planner<'_> {
         questions
     }
 
-    /// Whether some states that differ in this input only go different ways.
+    /// Returns whether some states that differ in this input only go different ways.
     fn matters(&self, states: &[u32], place: usize) -> bool {
         let mut ways: HashMap<Vec<u8>, StepId> = HashMap::with_capacity(states.len());
         states.iter().any(|state| {
@@ -259,7 +259,7 @@ impl Planner<'_> {
         Some(best.1)
     }
 
-    /// What is still open after a test, in bits.
+    /// The entropy that is left after a test, in bits.
     fn left(&self, states: &[u32], question: Question) -> f64 {
         let (yes, no) = self.part(states, question);
         self.entropy(&yes) + self.entropy(&no)

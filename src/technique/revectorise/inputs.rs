@@ -8,6 +8,7 @@
 use super::Settings;
 use super::probe::{Axis, End, Ends, Probe, Sides};
 use crate::diag::{Diagnostic, Failure, codes};
+pub(crate) use crate::points::Point;
 use crate::program::{InputId, Program, Value};
 
 /// What an input of a table can be.
@@ -90,9 +91,6 @@ pub struct Vocabulary<'p> {
     /// Whether the table tells entering from exiting; otherwise it speaks of lit fragments only.
     has_kind: bool,
 }
-
-/// A point of a table: one value per input, fetched ones absent until they are asked for.
-pub(crate) type Point = Vec<Option<Value>>;
 
 impl<'p> Vocabulary<'p> {
     /// Reads the names of a table's inputs and levels.
