@@ -139,7 +139,7 @@ impl PartialEq for dyn Technique + '_ {
 pub fn from_name(name: &str) -> Result<&'static dyn Technique, Failure> {
     let found = ALL.iter().find(|technique| technique.name() == name);
     found.copied().ok_or_else(|| {
-        let error = Diagnostic::error(codes::NOT_APPLICABLE, format!("there is no technique `{name}`"));
+        let error = Diagnostic::error(codes::RENDER, format!("there is no technique `{name}`"));
         let error = suggest(error, name, ALL.iter().map(|technique| technique.name()));
         Failure::bare("", error.help(format!("the techniques are: {}", names(|_| true).join(", "))))
     })
@@ -159,7 +159,7 @@ pub fn read_settings<'a>(
     pairs: impl IntoIterator<Item = &'a str>,
 ) -> Result<Settings, Failure> {
     let declared = || techniques.iter().flat_map(|technique| technique.settings());
-    let refuse = |message: String| Diagnostic::error(codes::NOT_APPLICABLE, message);
+    let refuse = |message: String| Diagnostic::error(codes::RENDER, message);
     let mut settings = Settings::default();
     for pair in pairs {
         let Some((name, value)) = pair.split_once('=') else {
@@ -195,7 +195,7 @@ pub fn require(technique: &dyn Technique, ability: Ability, what: &str) -> Resul
     }
     let message = format!("`{what}` needs a technique with {ability}, and {technique} has none");
     let with = names(|technique| technique.abilities().contains(&ability));
-    let error = Diagnostic::error(codes::NOT_APPLICABLE, message);
+    let error = Diagnostic::error(codes::RENDER, message);
     Err(Failure::bare("", error.help(format!("the techniques with {ability} are {}", and(&with)))))
 }
 

@@ -45,6 +45,38 @@ fn pictures_of_all_kinds_are_written() {
     assert!(std::fs::read(place.path("e.exr")).unwrap().starts_with(&[0x76, 0x2f, 0x31, 0x01]));
 }
 
+/// A spot whose cone covers a small part of the ground, with a wall in it.
+const SPOT: &str = r#"Scene(
+    title: "A spot",
+    camera: (eye: (0, 6, 6), target: (0, 0, 0)),
+    light: Spot(position: (1, 4, 0.5), target: (0, 0, 0), angle: 30),
+    objects: [
+        (shape: Ground(size: (30, 30)), casts: false),
+        (shape: Mesh(file: "mesh.obj"), at: (0, 0.5, 0)),
+    ],
+)
+"#;
+
+/// Out of a spot's cone there is no light, so that nothing there is an error: techniques differ where the light is.
+#[test]
+fn errors_count_where_the_light_can_reach() {
+    let place = Place::new();
+    place.file("spot.ron", SPOT).file("mesh.obj", MESH);
+    let said = place.run(
+        "quality --scenes spot.ron --shadow-maps 64,1024 --techniques hard,rsmss --size 96x54 --backend cpu \
+         --message-format json",
+    );
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let object: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let rmse = |map: u64, technique: &str| {
+        let row =
+            object["rows"].as_array().unwrap().iter().find(|r| r["shadow_map"] == map && r["technique"] == technique);
+        row.unwrap()["rmse"].as_f64().unwrap()
+    };
+    assert!(rmse(1024, "hard") < 0.7 * rmse(64, "hard"), "{}", said.out);
+    assert!(rmse(1024, "rsmss") < rmse(64, "hard"), "{}", said.out);
+}
+
 #[test]
 fn captured_inputs_can_be_evaluated() {
     let place = Place::new();
@@ -74,7 +106,7 @@ fn quality_measures_and_judges() {
          --json q.json --plot q.svg",
     );
     assert_eq!(said.code, Some(0), "{}", said.err);
-    assert!(said.out.contains("text: rsmss at 64 "), "{}", said.out);
+    assert!(said.out.contains("weighted by the light that would be there"), "{}", said.out);
     assert!(place.read("q.json").contains("\"rmse_near\""));
     assert!(place.read("q.svg").starts_with("<svg"));
 }
