@@ -51,6 +51,7 @@ pub mod report;
 #[cfg(feature = "render")]
 pub mod scene;
 pub mod show;
+pub mod skeleton;
 #[cfg(feature = "precise")]
 pub mod stabilise;
 pub mod table;

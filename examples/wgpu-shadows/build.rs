@@ -1,10 +1,10 @@
 //! Compiles the tables when the program is built: five plans of each into WGSL, and into Rust what their cases
-//! are called.
+//! are called; and takes the skeletons around them.
 
 use umbrage::plan::Shape;
 
 fn main() -> Result<(), umbrage::build::Errors> {
-    umbrage::build::Tables::new("../../tables/rsmss.ron")
+    let tables = umbrage::build::Tables::new("../../tables/rsmss.ron")
         .also("../../tables/smsr.ron")
         .wgsl()
         .rust()
@@ -12,7 +12,10 @@ fn main() -> Result<(), umbrage::build::Errors> {
         .plan(Shape::Ordered)
         .plan(Shape::Gathered)
         .plan(Shape::Switch)
-        .plan(Shape::Tree)
+        .plan(Shape::Tree);
+    ["hard", "pcf", "smsr", "rsmss", "rpcf"]
+        .into_iter()
+        .fold(tables, |tables, name| tables.skeleton(name))
         .compile()?;
     Ok(())
 }

@@ -12,6 +12,7 @@ use crate::analyse::{self, LintLevels};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::profile;
 use crate::program::Program;
+use crate::skeleton;
 use crate::table::Table;
 use crate::text::file::shown;
 use crate::tuned::slug;
@@ -32,6 +33,8 @@ pub struct Request {
     pub device: Option<String>,
     /// What becomes of findings.
     pub levels: LintLevels,
+    /// Names of [skeletons](crate::skeleton) to write beside the tables.
+    pub skeletons: Vec<String>,
 }
 
 /// What came of a run.
@@ -43,6 +46,8 @@ pub struct Batch {
     pub messages: Vec<Failure>,
     /// The files and directories that the run depends on, as far as they exist.
     pub inputs: BTreeSet<PathBuf>,
+    /// The skeletons that were asked for.
+    pub skeletons: Vec<Artifact>,
 }
 
 impl Batch {
@@ -56,9 +61,10 @@ impl Batch {
         self.has(Severity::Warning)
     }
 
-    /// The files of all tables.
+    /// The files of all tables, and the skeletons.
     pub fn files(&self) -> Vec<Artifact> {
-        self.tables.iter().flat_map(|(_, built)| built.files.iter().cloned()).collect()
+        let built = self.tables.iter().flat_map(|(_, built)| &built.files);
+        built.chain(&self.skeletons).cloned().collect()
     }
 
     fn has(&self, severity: Severity) -> bool {
@@ -108,8 +114,21 @@ pub fn run(request: &Request) -> Batch {
     })
 }
 
+/// The file of a skeleton.
+fn skeleton_of(name: &str) -> Result<Artifact, Failure> {
+    let text = skeleton::wgsl(name).ok_or_else(|| {
+        let error = Diagnostic::error(codes::NOT_APPLICABLE, format!("there is no skeleton `{name}`"));
+        Failure::bare("", error.help(format!("the skeletons are: {}", skeleton::NAMES.join(", "))))
+    })?;
+    Ok(Artifact { path: PathBuf::from("skeletons").join(name).with_extension("wgsl"), contents: text.into_bytes() })
+}
+
 fn collect(request: &Request) -> Batch {
     let mut batch = Batch::default();
+    for name in &request.skeletons {
+        let file = batch.keep(skeleton_of(name));
+        batch.skeletons.extend(file);
+    }
     let mut given: Vec<NamedProfile> = Vec::new();
     for path in &request.profiles {
         batch.reads(path);

@@ -88,6 +88,13 @@ impl Tables {
         self
     }
 
+    /// Also writes the WGSL around the tables of a technique to `skeletons/NAME.wgsl`. The names are those of
+    /// [`skeleton::NAMES`](crate::skeleton::NAMES); there are no others, as [`Self::compile`] will say.
+    pub fn skeleton(mut self, name: impl Into<String>) -> Self {
+        self.request.skeletons.push(name.into());
+        self
+    }
+
     /// Makes a plan of this shape; without any, `ordered`.
     pub fn plan(mut self, shape: Shape) -> Self {
         self.request.options.shapes.push(shape);
@@ -292,10 +299,12 @@ mod tests {
     #[test]
     fn a_build_script_gets_what_it_asks_for() {
         let place = tempfile::tempdir().unwrap_or_else(|e| panic!("{e}"));
-        let tables = Tables::new("tables/smsr.ron").wgsl().glsl(450);
+        let tables = Tables::new("tables/smsr.ron").wgsl().glsl(450).skeleton("smsr");
         let output = tables.output(place.path()).compile().unwrap_or_else(|e| panic!("{e}"));
         let wgsl = std::fs::read_to_string(output.join("smsr/ordered.wgsl")).unwrap_or_else(|e| panic!("{e}"));
         assert!(wgsl.contains("fn smsr_key("));
+        let skeleton = std::fs::read_to_string(output.join("skeletons/smsr.wgsl")).unwrap_or_else(|e| panic!("{e}"));
+        assert!(skeleton.contains("smsr_key_case("));
         assert!(output.join("smsr/ordered.450.glsl").exists() && !output.join("smsr/ladder.wgsl").exists());
     }
 
@@ -313,6 +322,8 @@ mod tests {
         let found = errors(Tables::new("tables").glsl(110).deny("U9999"), place.path());
         assert_eq!(found[0], "GLSL 110 is no target");
         assert!(found[1].starts_with("there is no finding `U9999`; the findings are: "), "{found:?}");
+        let found = errors(Tables::new("tables/smsr.ron").skeleton("smrs"), place.path());
+        assert_eq!(found, ["there is no skeleton `smrs`"]);
         let tables = Tables::new("tables/smsr.ron").profile("tables/smsr.ron").also("none.ron").also("README.md");
         let found = errors(tables, place.path());
         assert!(found[0].starts_with("this is not a profile"), "{found:?}");

@@ -42,6 +42,10 @@ pub(super) struct Arguments {
     /// rust_bytemuck, rust_wgpu
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
+    /// Techniques whose WGSL around the table to write, too, to skeletons/NAME.wgsl: hard, pcf, smsr, rsmss, rpcf,
+    /// casefree, integrals
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    skeleton: Vec<String>,
     /// Build again whenever a table, a profile or a tuned choice changes, until interrupted. While there are errors,
     /// what was generated before stays
     #[arg(long)]
@@ -109,6 +113,7 @@ impl Arguments {
             tuned: self.tuned.clone(),
             device: self.device.clone(),
             levels: self.levels.levels(),
+            skeletons: self.skeleton.clone(),
         }
     }
 }

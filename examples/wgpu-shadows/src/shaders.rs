@@ -26,16 +26,13 @@ macro_rules! compiled {
     };
 }
 
-/// The search along silhouettes, and what the techniques do with it: those texts of Umbrage's own renderer that
-/// stand around its tables.
+/// The search along silhouettes of a technique, as the build script left it.
 macro_rules! skeleton {
-    ($($name:literal),*) => {
-        concat!($(include_str!(concat!("../../../src/technique/revectorise/gpu/wgsl/", $name, ".wgsl"))),*)
+    ($name:literal) => {
+        include_str!(concat!(env!("OUT_DIR"), "/skeletons/", $name, ".wgsl"))
     };
 }
 
-const FRAME: &str = skeleton!("frame");
-const SEARCH: &str = concat!("const READ_DOMINANCE: bool = true;\n", skeleton!("reads_gathered", "edges", "dominance"));
 const LIGHT: &str = include_str!("wgsl/light.wgsl");
 
 /// A table, in all plans.
@@ -134,15 +131,14 @@ impl Tables {
     /// The WGSL of the last pass.
     pub(crate) fn text(&self, technique: Variant, plan: usize) -> String {
         let table = self.of(technique).and_then(|table| table.modules[plan].as_deref()).unwrap_or_default();
-        let own = match technique {
+        let skeleton = match technique {
             Variant::Hard => skeleton!("hard"),
-            Variant::Smsr => concat!(skeleton!("smsr", "single"), include_str!("wgsl/smsr_key.wgsl")),
-            Variant::Rsmss => concat!(skeleton!("rsmss", "single"), include_str!("wgsl/rsmss_key.wgsl")),
-            Variant::Rpcf => concat!(skeleton!("rsmss", "rpcf"), include_str!("wgsl/rsmss_key.wgsl")),
+            Variant::Smsr => skeleton!("smsr"),
+            Variant::Rsmss => skeleton!("rsmss"),
+            Variant::Rpcf => skeleton!("rpcf"),
             _ => skeleton!("pcf"),
         };
-        let search = if table.is_empty() { "" } else { SEARCH };
-        [FRAME, search, own, table, LIGHT].concat()
+        [skeleton, table, LIGHT].concat()
     }
 }
 

@@ -15,8 +15,7 @@ use crate::emit::{self, wgsl_module};
 use crate::gpu::pass::{Compute, Module, Resources};
 use crate::gpu::{Gpu, laid_out};
 use crate::plan::{Plan, Shape};
-
-const SKELETON: &str = include_str!("wgsl/light.wgsl");
+use crate::skeleton;
 
 /// Surfaces of one run: many, but little work compared to what a driver takes for a hang.
 const PORTION: usize = 1 << 16;
@@ -51,7 +50,7 @@ impl<'g> LightPipeline<'g> {
         for (name, count) in counts {
             let _ = writeln!(source, "const {name}: u32 = {count}u;");
         }
-        source += SKELETON;
+        source += skeleton::INTEGRALS;
         let module = wgsl_module(tables.moments_of_pieces(), &source)?;
         let module = Module::new(gpu, "light", module)?;
         let compute = module.compute(gpu, module.only_compute()?, &[])?;

@@ -18,4 +18,4 @@ mod source;
 pub use frame::GpuFrame;
 pub use raster::{GpuPicture, Raster};
 pub use shader::{Bound, Costs, Shader};
-pub use source::{Output, Passes, Reads, Skeleton, source};
+pub use source::{Output, Passes, Skeleton, source};
