@@ -69,12 +69,10 @@ fn nothing_imports_upwards() {
         if a == b || floor[b.as_str()] < floor[a.as_str()] {
             continue;
         }
-        let edge = allowed.iter().find(|(x, y)| lies_in(from, x) && lies_in(to, y));
-        match edge {
-            Some(edge) => drop(used.insert(edge.clone())),
-            None => {
-                drop(wrong.insert(format!("{} uses {}, which does not stand below it", module.file, to.join("::"))))
-            }
+        if let Some(edge) = allowed.iter().find(|(x, y)| lies_in(from, x) && lies_in(to, y)) {
+            used.insert(edge.clone());
+        } else {
+            wrong.insert(format!("{} uses {}, which does not stand below it", module.file, to.join("::")));
         }
     }
     settle(wrong, &allowed, &used);
@@ -94,9 +92,10 @@ fn libraries_stay_behind_their_doors() {
             if !names.iter().any(|named| lies_in(named, thing)) {
                 continue;
             }
-            match rooms.iter().find(|room| lies_in(path, room)) {
-                Some(room) => drop(entered.insert(*room)),
-                None => drop(wrong.insert(format!("{} names {thing}", module.file))),
+            if let Some(room) = rooms.iter().find(|room| lies_in(path, room)) {
+                entered.insert(*room);
+            } else {
+                wrong.insert(format!("{} names {thing}", module.file));
             }
         }
         wrong.extend(
