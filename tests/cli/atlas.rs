@@ -2,18 +2,13 @@
 
 use std::path::Path;
 
-use crate::support::Place;
+use crate::support::{Place, published};
 use umbrage::atlas::{self, Atlas};
-use umbrage::program::Program;
-
-fn program(name: &str) -> Program {
-    Program::read(Path::new("tables").join(name)).unwrap_or_else(|e| panic!("{e}"))
-}
 
 #[test]
 fn checked_in_drawings_are_current() {
     for name in ["rsmss", "smsr"] {
-        let program = program(&format!("{name}.ron"));
+        let program = published(name);
         let drawn = atlas::svg(&program, &Atlas::new(&program, None).unwrap());
         let path = Path::new("docs/images").join(name).with_extension("svg");
         let kept = std::fs::read_to_string(&path).unwrap();
@@ -24,7 +19,7 @@ fn checked_in_drawings_are_current() {
 /// Every case has a panel with its number, its words and its section; with shares, also how often it is taken.
 #[test]
 fn panels_say_what_the_table_says() {
-    let program = program("smsr.ron");
+    let program = published("smsr");
     let shares: Vec<f64> = (0..12).map(|case| f64::from(case) / 66.0).collect();
     let atlas = Atlas::new(&program, Some(&shares)).unwrap();
     assert_eq!(atlas.panels.len(), program.rows.len());

@@ -1,4 +1,5 @@
-//! Everything that can be wrong with what a user gives, and what is said of it.
+//! Everything that can be wrong with rows, points, files and arguments, and with tables that are no text or too deep
+//! to be written down. Other tables that are refused stand in `tests/tables/refused`.
 //!
 //! Each message is a snapshot. Besides, every failure exits with 2 and leaves
 //! files as they were.
@@ -108,129 +109,6 @@ fn the_table_itself_is_fine() {
 }
 
 #[test]
-fn malformed_ron() {
-    says!("ron_unclosed", refused("    default: 0,\n)", "    default: 0,\n"));
-    says!("ron_missing_comma", refused("name: \"demo\",", "name: \"demo\""));
-    says!("ron_trailing", refused("    default: 0,\n)", "    default: 0,\n) extra"));
-    says!("ron_unclosed_string", refused("\"demo\"", "\"demo"));
-    says!("ron_not_a_table", refused_text("[1, 2, 3]"));
-    says!("ron_wrong_type", refused("id: 1", "id: \"one\""));
-    says!("ron_language", refused("language: 1", "language: 7"));
-}
-
-#[test]
-fn fields() {
-    says!("field_unknown", refused("when: \"far && seen\"", "wenn: \"far && seen\""));
-    says!("field_unknown_at_top", refused("hit_policy: First,", "hit_policy: First,\n    hitpolicy: First,"));
-    says!("field_missing", refused("    output: Number(),\n", ""));
-    says!("field_twice", refused("    output: Number(),\n", "    output: Number(),\n    output: Number(),\n"));
-    says!("variant_unknown", refused("Bool(),", "Boolean(),"));
-    says!("case_without_value", refused(", value: \"1 - x\"", ""));
-    says!("hit_policy", refused("hit_policy: First", "hit_policy: Any"));
-    says!("hit_policy_with_more", refused("hit_policy: First", "hit_policy: First(3)"));
-    says!("default_with_more", refused("\"right\": 0.5})", "\"right\": 0.5}, default: left(5))"));
-    says!("enumeration_of_condition", refused("Number()", "Enumeration(of: \"far\")"));
-    says!("list_of_condition", refused("Number()", "List(of: \"seen\", max: 2)"));
-}
-
-#[test]
-fn names_in_expressions() {
-    says!("input_unknown", refused("far && seen", "fra && seen"));
-    says!("level_unknown", refused("side == left", "side == lft"));
-    says!("level_as_value", refused("\"1 - x\"", "\"left\""));
-    says!("level_unknown_in_guard_data", refused("\"side == left && near\"", "{\"side\": [\"left\", \"up\"]}"));
-    says!("input_unknown_in_guard_data", refused("\"side == left && near\"", "{\"sides\": \"left\"}"));
-    says!("function_unknown", refused("1 - x", "mx(x, 1)"));
-    says!("symmetry_unknown", refused("under: \"turn\"", "under: \"tern\""));
-}
-
-#[test]
-fn expressions() {
-    says!("type_condition", refused("far && seen", "far && x"));
-    says!("type_number", refused("1 - x", "1 - far"));
-    says!("type_result", refused("1 - x", "x < 1"));
-    says!("parenthesis_open", refused("1 - x", "(1 - x"));
-    says!("parenthesis_close", refused("1 - x", "1 - x)"));
-    says!("operator_missing", refused("1 - x", "1 x"));
-    says!("character", refused("far && seen", "far & seen"));
-    says!("comparison_chain", refused("x < 0.5", "0 < x < 0.5"));
-    says!("else_missing", refused("1 - x", "if far { x }"));
-    says!("arguments", refused("1 - x", "max(x)"));
-    says!("empty_expression", refused("1 - x", ""));
-    says!("division_by_zero", refused("1 - x", "x / (1 - 1)"));
-    says!("remainder_of_zero", refused("1 - x", "x % 0"));
-    says!("too_large", refused("1 - x", "x * 1e39"));
-    says!("not_finite", refused("1 - x", "x + log(-1)"));
-    says!("swizzle_mixed", refused("1 - x", "length(vec4(x).xg)"));
-    says!("levels_alike", {
-        let levels = "Levels(values: {\"none\": 0, \"left\": 0.25, \"right\": 0.5})";
-        let text = TABLE.replace("\"far\":", &format!("\"other\": {levels},\n        \"far\":"));
-        refused_text(text.replace("far && seen", "side == other"))
-    });
-    says!("let_hides_input", refused("1 - x", "let x = 1; x"));
-    says!("let_hides_name", refused("1 - x", "let near = 1; near"));
-    says!("let_hides_let", refused("1 - x", "let q = 1; let q = 2; q"));
-    says!("let_dotted", refused("1 - x", "let q.r = 1; q.r"));
-}
-
-#[test]
-fn cases() {
-    says!("case_twice", refused("id: 2", "id: 1"));
-    says!("case_missing", refused("1 - x", "case(4)"));
-    says!("case_missing_image", refused("case: 1,", "case: 9,"));
-    says!("case_circular_itself", refused("1 - x", "case(2)"));
-    says!("case_image_of_itself", refused("case: 1,", "case: 3,"));
-    says!(
-        "case_circular_two",
-        refused_text(TABLE.replace("\"x * 2\"", "\"case(2)\"").replace("\"1 - x\"", "\"case(1)\""))
-    );
-    says!("name_circular", refused("\"x < 0.5\"", "\"!near\""));
-    says!("name_circular_two", refused("\"x < 0.5\",", "\"!distant\",\n        \"distant\": \"!near\","));
-    says!("no_cases", {
-        let from = TABLE.find("        Case(").unwrap();
-        let to = TABLE.find("    ],\n    default").unwrap();
-        refused_text(format!("{}{}", &TABLE[..from], &TABLE[to..]))
-    });
-    says!("line_unreachable", refused("value: \"1 - x\"", "lines: [(\"x\", \"near\"), \"1 - x\", (1, \"far\")]"));
-    says!("replacement_out_of_range", refused("1 - x", "case(1, x = 5)"));
-    says!("level_renamed_twice", refused("\"left\": \"right\",", "\"left\": \"right\", 0.25: \"none\","));
-    says!("example_beyond_clamp", {
-        let example = "value: \"1 - x\", examples: [({\"side\": none, \"far\": true, \"x\": 0, \"seen\": true}, 7)]";
-        refused_text(TABLE.replace("Number()", "Number(clamp: (0, 1))").replace("value: \"1 - x\"", example))
-    });
-    says!("example_unknown_input", refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"y\": 1}, 1)]"));
-    says!("example_incomplete", refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"far\": true}, 1)]"));
-    says!(
-        "example_out_of_range",
-        refused("value: \"1 - x\"", "value: \"1 - x\", examples: [({\"far\": true, \"side\": none, \"x\": 2}, 1)]")
-    );
-}
-
-#[test]
-fn names_that_are_taken() {
-    says!("reserved_input", refused("\"far\":", "\"uniform\":"));
-    says!("reserved_table", refused("\"demo\"", "\"float\""));
-    says!("reserved_name", refused("\"near\":", "\"while\":"));
-    says!("name_twice", refused("\"near\":", "\"far\": \"x < 1\",\n        \"near\":"));
-    says!("level_twice", refused("\"left\": 0.25", "\"none\": 0.25"));
-    says!("level_keyword", refused("\"none\"", "\"if\""));
-    says!("level_code_twice", refused("\"left\": 0.25", "\"left\": 0.5"));
-    says!("name_hides_table", refused("\"near\":", "\"demo_key\": \"x\",\n        \"near\":"));
-}
-
-#[test]
-fn names_that_smuggle_code() {
-    let code = "\"a; } fn evil(\"";
-    says!("smuggle_input", refused("\"far\"", code));
-    says!("smuggle_level", refused("\"none\"", code));
-    says!("smuggle_table", refused("\"demo\"", code));
-    says!("smuggle_name", refused("\"near\"", code));
-    says!("smuggle_symmetry", refused("\"turn\"", code));
-    says!("smuggle_newline", refused("\"far\"", "\"a\\n#include\""));
-    says!("smuggle_comment", refused("\"turn\"", "\"*/ evil /*\""));
-}
-
-#[test]
 fn deep_nesting() {
     let deep = 10_000;
     let wrap = |open: &str, close: &str| format!("{}x{}", open.repeat(deep), close.repeat(deep));
@@ -264,22 +142,7 @@ fn deep_nesting() {
 }
 
 #[test]
-fn sizes() {
-    let inputs: String = (0..40).map(|i| format!("\"s{i}\": Bool(),\n        ")).collect();
-    says!("states_trillion", refused("\"far\":", &format!("{inputs}\"far\":")));
-    says!("states_levels", refused("Bool(),", "Int(from: 0, to: 1000000000000),"));
-    let doubling: String = (1..40).map(|i| format!("\"d{i}\": \"d{0} + d{0}\",\n        ", i - 1)).collect();
-    says!("value_too_large", refused("\"near\":", &format!("\"d0\": \"x\",\n        {doubling}\"near\":")));
-    says!("one_level", refused("{\"none\": 0, \"left\": 0.25, \"right\": 0.5}", "{\"none\": 0}"));
-    says!("range_backwards", refused("from: 0, to: 1", "from: 1, to: 0"));
-    says!("range_infinite", refused("from: 0, to: 1", "from: 0, to: inf"));
-    says!("inexact_code", refused("0.25", "0.1"));
-}
-
-#[test]
 fn files() {
-    says!("empty_file", refused_text(""));
-    says!("blank_file", refused_text("// nothing here\n"));
     says!("not_utf8", refused_text(b"Table(\n    name: \"\xff\xfe\",\n)"));
     let place = Place::new();
     std::fs::create_dir(place.path("empty")).unwrap();
@@ -371,15 +234,13 @@ fn no_gpu() {
 }
 
 #[test]
-fn findings() {
+fn a_refused_table_is_refused_by_every_command() {
+    refused("1 - x", "mx(x, 1)");
+}
+
+#[test]
+fn findings_as_json() {
     let place = Place::new();
     place.file("demo.ron", TABLE.replace("\"near\":", "\"lost\": \"x * 2\",\n        \"near\":"));
-    says!("finding_unused", place.run("check demo.ron").all());
     says!("finding_unused_json", place.run("check demo.ron --message-format json").all());
-    let example = "value: \"1 - x\", examples: [({\"side\": none, \"far\": true, \"x\": 0.25, \"seen\": true}, 0.5)]";
-    place.file("demo.ron", TABLE.replace("value: \"1 - x\"", example));
-    says!("finding_example", place.run("check demo.ron").all());
-    let example = "value: \"1 - x\", examples: [({\"side\": left, \"far\": true, \"x\": 0.25, \"seen\": true}, 0.75)]";
-    place.file("demo.ron", TABLE.replace("value: \"1 - x\"", example));
-    says!("finding_example_of_another_case", place.run("check demo.ron").all());
 }

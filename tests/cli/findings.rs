@@ -1,220 +1,19 @@
-//! Every finding of `umbrage check`, with its full message, and what the
-//! findings say of the published tables.
+//! Levels of findings, exhibits, and what the findings say of the published tables. The findings themselves, each with
+//! its full message, stand in `tests/tables`.
 
 use std::collections::BTreeSet;
 
-use crate::support::Place;
+use crate::support::{OrPanic as _, Place};
 use umbrage::analyse::{self, LintLevels};
 use umbrage::diag::Source;
 use umbrage::program::Program;
 use umbrage::table::Table;
-
-/// What `check` says of a table with these parts.
-fn said(inputs: &str, rest: &str) -> String {
-    let text = format!(
-        "Table(language: 1, name: \"demo\", hit_policy: First,\n    inputs: {{{inputs}}},\n    output: Number(),\n{rest})\n"
-    );
-    let place = Place::new();
-    place.file("demo.ron", text);
-    place.run("check demo.ron").all()
-}
-
-const INPUTS: &str = "\"s\": Levels(values: {\"off\": 0, \"low\": 1, \"high\": 2}, default: off), \"f\": Bool(fetched: (cost: 1)), \"g\": Bool(fetched: (cost: 1)), \"x\": Range(from: 0, to: 1, default: 0.5), \"y\": Range(from: -1, to: 1, default: 0)";
-
-fn cases(cases: &str) -> String {
-    said(INPUTS, &format!("    cases: [\n{cases}\n    ],\n    default: \"if f && g {{ x + y }} else {{ 0 }}\",\n"))
-}
 
 /// Names the snapshot after its first argument.
 macro_rules! says {
     ($name:literal, $said:expr) => {
         insta::assert_snapshot!($name, $said)
     };
-}
-
-#[test]
-fn coverage() {
-    says!(
-        "uncovered",
-        cases(
-            "        Case(id: 1, when: \"s == off && x < 0.5\", value: 1),\n        Case(id: 2, when: \"s == low\", value: 2),"
-        )
-    );
-    says!(
-        "dead_guard",
-        cases(
-            "        Case(id: 1, when: \"s == low && s == high\", value: 1),\n        Case(id: 2, when: true, value: 2),"
-        )
-    );
-    says!(
-        "dead_case",
-        cases(
-            "        Case(id: 1, when: \"s == low\", value: 1),\n        Case(id: 2, when: \"s != low\", value: 2),\n        Case(id: 3, when: \"f\", value: 3),"
-        )
-    );
-    says!(
-        "not_reached",
-        said(
-            INPUTS,
-            "    assume: {\"A\": (\"s != high || x == 0\", \"high is never reached\"), \"B\": \"f || !g\"},\n    cases: [\n        Case(id: 1, when: \"s == high && x > 0.5\", value: 1),\n        Case(id: 2, when: true, value: \"x + y\"),\n    ],\n    default: 0,\n"
-        )
-    );
-}
-
-#[test]
-fn overlaps() {
-    says!(
-        "order_matters",
-        cases(
-            "        Case(id: 1, when: \"s == low\", value: 1),\n        Case(id: 2, when: \"s != off\", value: 2),\n        Case(id: 3, when: true, value: 3),"
-        )
-    );
-    let text = "Table(language: 1, name: \"demo\", hit_policy: Unique,\n    inputs: {\"x\": Range(from: 0, to: 1), \"s\": Bool()},\n    output: Number(),\n    cases: [\n        Case(id: 1, when: \"s && x < 0.75\", value: \"x\"),\n        Case(id: 2, when: \"x > 0.5\", value: 1),\n    ],\n    default: 0)\n";
-    let place = Place::new();
-    place.file("demo.ron", text);
-    says!("not_unique", place.run("check demo.ron").all());
-}
-
-#[test]
-fn lines() {
-    says!(
-        "no_line",
-        cases(
-            "        Case(id: 1, when: \"s == low\", lines: [(1, \"f\"), (\"x\", \"g\")]),\n        Case(id: 2, when: \"s != low\", value: 0),"
-        )
-    );
-    says!("lines_cross", cases("        Case(id: 1, when: true, lines: [(1, \"f\"), (\"x\", \"g\"), 0]),"));
-    says!(
-        "dead_line",
-        cases(
-            "        Case(id: 1, when: \"s == low\", lines: [(1, \"f\"), (2, \"!f\"), (\"x\", \"g\"), 0]),\n        Case(id: 2, when: \"s != low\", lines: [(1, \"s == low\"), 0]),"
-        )
-    );
-    says!(
-        "dead_choice",
-        cases(
-            "        Case(id: 1, when: \"s == low\", value: \"if s == high { x } else { y }\"),\n        Case(id: 2, when: \"s != low\", value: 0),"
-        )
-    );
-}
-
-const SIDES: &str = "\"h\": Levels(values: {\"none\": 0, \"left\": 1, \"right\": 2}, default: none), \"v\": Levels(values: {\"none\": 0, \"top\": 1, \"bottom\": 2}, default: none), \"b\": Bool(default: false), \"d\": Range(from: 0, to: 1, default: 0), \"x\": Range(from: 0, to: 1, default: 0.5), \"y\": Range(from: 0, to: 1, default: 0.5)";
-
-const MIRRORS: &str = r#"    symmetries: {
-        "mirror": Symmetry(map: {"h": {"left": "right", "right": "left"}, "x": "1 - x"}),
-        "transpose": Symmetry(map: {"h": From("v", {"top": "left", "bottom": "right"}), "v": From("h", {"left": "top", "right": "bottom"}), "x": "y", "y": "x"}),
-        "complement": Symmetry(map: {"b": "!b"}, result: "1 - value"),
-    },
-"#;
-
-#[test]
-fn symmetries() {
-    let table = |fourth: &str, rest: &str| {
-        said(
-            SIDES,
-            &format!(
-                "{MIRRORS}    cases: [\n        Case(id: 1, when: \"h == left && v == none\", value: \"if b {{ 1 - x }} else {{ x }}\"),\n        Case(id: 2, when: \"h == right && v == none\", value: \"if b {{ x }} else {{ 1 - x }}\"),\n        Case(id: 3, when: \"v == top && h == none\", value: \"if b {{ 1 - y }} else {{ y }}\"),\n        Case(id: 4, when: \"v == bottom && h == none\", value: \"{fourth}\"),\n{rest}    ],\n    default: \"if b {{ 0 }} else {{ 1 }}\",\n"
-            ),
-        )
-    };
-    says!("odd_one_out", table("if b { y } else { 1 - x }", ""));
-    says!(
-        "undecided",
-        said(
-            SIDES,
-            "    symmetries: {\"mirror\": Symmetry(map: {\"h\": {\"left\": \"right\", \"right\": \"left\"}, \"x\": \"1 - x\"})},\n    cases: [\n        Case(id: 1, when: \"h == left && !b\", value: \"x + d\"),\n        Case(id: 2, when: \"h == right && !b\", value: \"x - d\"),\n        Case(id: 3, when: \"v == top && b\", value: \"y\"),\n    ],\n    default: 0,\n"
-        )
-    );
-    says!(
-        "own_image",
-        table(
-            "if b { y } else { 1 - y }",
-            "        Case(id: 5, when: \"h != none && v != none\", value: \"if b { 1 - d } else { x * d }\"),\n"
-        )
-    );
-    says!(
-        "symmetry_assumed",
-        said(
-            SIDES,
-            &format!(
-                "{MIRRORS}    assume: {{\"A\": \"h == none || v == none || x == y\"}},\n    cases: [\n        Case(id: 1, when: \"!b && h == left && v == top\", value: \"x\"),\n        Case(id: 2, when: \"!b && h == right && v == top\", value: \"1 - x\"),\n        Case(id: 3, when: \"!b && h == left && v == bottom\", value: \"x\"),\n        Case(id: 4, when: \"!b && h == right && v == bottom\", value: \"1 - x\"),\n    ],\n    default: \"if b {{ 0 }} else {{ 1 }}\",\n"
-            )
-        )
-    );
-}
-
-#[test]
-fn numbers() {
-    says!(
-        "not_a_number",
-        cases(
-            "        Case(id: 1, when: \"s == low\", value: \"1 / y\"),\n        Case(id: 2, when: \"s == off\", value: \"sqrt(y) + 1\"),\n        Case(id: 3, when: \"s == high && y > 0.25\", value: \"log(y)\"),\n        Case(id: 4, when: \"s == high\", value: 0),"
-        )
-    );
-    says!(
-        "float_equality",
-        cases(
-            "        Case(id: 1, when: \"x == 0.25\", value: 1),\n        Case(id: 2, when: \"x != 0.25\", value: \"if y == 0 { 2 } else { 3 }\"),"
-        )
-    );
-    let place = Place::new();
-    place.file("demo.ron", format!("Table(language: 1, name: \"demo\", hit_policy: First,\n    inputs: {{{INPUTS}}},\n    output: Number(clamp: (0, 1)),\n    cases: [\n        Case(id: 1, when: \"s == low\", value: \"1.5 + 0.25 * y\"),\n        Case(id: 2, when: \"f && g\", value: \"x\"),\n    ],\n    default: 0)\n"));
-    says!("out_of_range", place.run("check demo.ron").all());
-}
-
-/// The two sines are bounded alike, so the root of a negative number is found under either.
-#[test]
-fn a_root_of_any_sine_can_leave_the_numbers() {
-    for function in ["sin", "cos", "portableSin", "portableCos"] {
-        let found = said(
-            "\"x\": Range(from: -3, to: 3, default: 0)",
-            &format!(
-                "    cases: [Case(id: 1, when: \"x <= 3\", value: \"sqrt({function}(x) + 0.5)\")],\n    default: 0,\n"
-            ),
-        );
-        assert!(found.contains("warning[U0514]") && found.contains("the root of a negative number"), "{found}");
-    }
-}
-
-#[test]
-fn continuity() {
-    says!(
-        "jump",
-        said(
-            "\"x\": Range(from: 0, to: 1, default: 0.5), \"s\": Bool(default: false)",
-            "    continuity: {\n        \"cut\": Switch(of: [\"x\"]),\n        \"wrap\": Border(when: \"x == 1\", map: {\"x\": \"0\"}, free: [\"s\"], doc: \"the next one\"),\n    },\n    cases: [\n        Case(id: 1, when: \"x < 0.5\", value: \"x\"),\n        Case(id: 2, when: \"x >= 0.5\", value: \"if s { 1.25 - x } else { 1 - x }\"),\n    ],\n    default: 0,\n"
-        )
-    );
-}
-
-#[test]
-fn style() {
-    says!(
-        "inexact",
-        cases("        Case(id: 1, when: true, lines: [(\"0.1 * x\", \"f\"), (\"y + 0.3\", \"g\"), 0.1]),")
-    );
-    says!(
-        "mergeable",
-        cases(
-            "        Case(id: 1, when: \"s == low\", value: \"x\"),\n        Case(id: 2, when: \"s == off\", value: \"y\"),\n        Case(id: 3, when: \"s == high\", value: \"x\"),"
-        )
-    );
-    says!(
-        "renamed",
-        said(
-            "\"a\": Levels(values: {\"On\": 0, \"on\": 1}), \"B\": Bool(), \"b\": Bool()",
-            "    cases: [\n        Case(id: 1, when: \"a == On && b && B\", value: 1),\n    ],\n    default: 0,\n"
-        )
-    );
-}
-
-#[test]
-fn acknowledged_findings() {
-    let lines = "        Case(id: 1, when: true, lines: [(1, \"f\"), (\"x\", \"g\"), 0],\n             allow: [(code: \"U0508\", reason: \"f comes first\")]),";
-    says!("acknowledged", cases(lines));
-    says!("unused_allow", cases(&lines.replace("U0508", "U0507")));
-    says!("unknown_allow", cases(&lines.replace("U0508", "U9999")));
-    says!("no_reason", cases(&lines.replace("f comes first", " ")));
 }
 
 #[test]
@@ -251,7 +50,7 @@ fn exhibits() {
 }
 
 fn program(source: &str, text: String) -> Program {
-    Table::parse(Source::new(source, text)).and_then(|t| Program::check(&t)).unwrap_or_else(|e| panic!("{e}"))
+    Table::parse(Source::new(source, text)).and_then(|t| Program::check(&t)).or_panic()
 }
 
 /// Findings of a table that another one does not have, by code, with the first case that each points at.
@@ -334,9 +133,9 @@ fn every_misprint_alone_is_found() {
     let mended = program("rsmss.ron", text.clone());
     // What is acknowledged must not hide anything here.
     let bare = |text: &str| {
-        let mut table = Table::parse(Source::new("rsmss.ron", text)).unwrap_or_else(|e| panic!("{e}"));
+        let mut table = Table::parse(Source::new("rsmss.ron", text)).or_panic();
         table.cases.iter_mut().for_each(|case| case.allow.clear());
-        Program::check(&table).unwrap_or_else(|e| panic!("{e}"))
+        Program::check(&table).or_panic()
     };
     let before = bare(&text);
     assert_eq!(analyse::findings(&mended), [], "the mended table is clean");
@@ -359,7 +158,7 @@ fn every_misprint_alone_is_found() {
 /// The ranges before the clamp are those that the specification gives.
 #[test]
 fn ranges_of_rsmss() {
-    let program = Program::read("tables/rsmss.ron").unwrap_or_else(|e| panic!("{e}"));
+    let program = Program::read("tables/rsmss.ron").or_panic();
     let ranges = analyse::ranges(&program);
     let all = ranges.iter().fold((0.0_f64, 1.0_f64), |all, r| (all.0.min(r.before.0), all.1.max(r.before.1)));
     assert_eq!(all, (-1.0, 2.0));

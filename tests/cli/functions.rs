@@ -1,11 +1,10 @@
-//! Functions of tables, from the table to every executor, and what is said of
-//! functions that are none.
+//! Functions of tables, from the table to every executor. Those that are refused stand in `tests/tables/refused`.
 
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
-use crate::support::Place;
+use crate::support::{OrPanic as _, Place};
 use umbrage::analyse::{agrees, allowance};
 use umbrage::emit;
 use umbrage::eval::{Batch, Columns, Interpreter};
@@ -15,7 +14,7 @@ use umbrage::program::{Program, Value};
 const TABLES: [&str; 2] = ["tables/double_product.ron", "tables/spherical_gaussian.ron"];
 
 fn programs() -> Vec<Program> {
-    TABLES.into_iter().flat_map(|table| Program::read_all(table).unwrap_or_else(|e| panic!("{e}"))).collect()
+    TABLES.into_iter().flat_map(|table| Program::read_all(table).or_panic()).collect()
 }
 
 /// Whether results are what an example expects, as accurately as the function claims.
@@ -58,19 +57,17 @@ fn worked_examples_in_the_interpreters() {
 #[cfg(feature = "gpu")]
 #[test]
 fn worked_examples_on_the_gpu() {
+    use crate::support::adapter;
     use umbrage::emit::kernel::columns::Entry;
-    use umbrage::gpu::{AdapterChoice, Gpu, Kernel, Language};
-    let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
-        assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
-        return;
-    };
+    use umbrage::gpu::{Kernel, Language};
+    let Some(gpu) = adapter() else { return };
     for program in programs() {
-        let proved = Plan::proved(&program, Shape::Ladder).unwrap_or_else(|e| panic!("{e}"));
+        let proved = Plan::proved(&program, Shape::Ladder).or_panic();
         let mut columns = Columns::<f32>::new(&program);
         program.examples.iter().for_each(|example| columns.push(&example.inputs).unwrap());
         for language in Language::ALL {
-            let kernel = Kernel::new(&gpu, &proved, Entry::Levels, language).unwrap_or_else(|e| panic!("{e}"));
-            let outputs = kernel.run(&columns).unwrap_or_else(|e| panic!("{e}"));
+            let kernel = Kernel::new(&gpu, &proved, Entry::Levels, language).or_panic();
+            let outputs = kernel.run(&columns).or_panic();
             for index in 0..program.examples.len() {
                 let got: Vec<f32> = outputs.values.iter().map(|component| component[index]).collect();
                 assert!(right(&program, index, &got), "{} {language:?} example {index}: {got:?}", program.name);
@@ -83,16 +80,13 @@ fn worked_examples_on_the_gpu() {
 #[cfg(all(feature = "gpu", feature = "render"))]
 #[test]
 fn light_on_the_gpu_is_that_of_the_interpreter() {
-    use umbrage::gpu::{AdapterChoice, Gpu};
+    use crate::support::adapter;
     use umbrage::scene::Scene;
     use umbrage::scene::rays::Rays;
     use umbrage::scene::surfaces::Surfaces;
     use umbrage::technique::integrals::gpu::LightPipeline;
     use umbrage::technique::integrals::{Settings, Surroundings, Tables, picture};
-    let Ok(gpu) = Gpu::open(&AdapterChoice::Any) else {
-        assert!(std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
-        return;
-    };
+    let Some(gpu) = adapter() else { return };
     let world = Scene::open("studio").unwrap();
     let rays = Rays::exact(&world);
     let (scene, settings) = (Surroundings::new(&world).unwrap(), Settings::with_threshold(0.1));
@@ -121,7 +115,7 @@ fn worked_examples_in_emitted_rust() {
     let mut source = String::new();
     let mut main = String::from("fn main() {\n");
     for program in &programs {
-        let proved = Plan::proved(program, Shape::Ladder).unwrap_or_else(|e| panic!("{e}"));
+        let proved = Plan::proved(program, Shape::Ladder).or_panic();
         source += &emit::rust(&proved);
         for example in &program.examples {
             let inputs: Vec<String> = example
@@ -165,7 +159,7 @@ fn trigonometric_calls_are_few() {
         if !["moments", "A", "B", "Lo", "Lo_ends"].contains(&name.as_str()) {
             continue;
         }
-        let proved = Plan::proved(&program, Shape::Ladder).unwrap_or_else(|e| panic!("{e}"));
+        let proved = Plan::proved(&program, Shape::Ladder).or_panic();
         let source = emit::wgsl(&proved);
         let start = source.find(&format!("fn {}_key_case(", program.name)).unwrap();
         let body: Vec<&str> = source[start..].lines().take_while(|line| *line != "}").collect();
@@ -316,59 +310,6 @@ fn columns_of_functions() {
         let said = place.run(arguments);
         assert!(said.code == Some(2) && said.err.contains(message), "{}", said.all());
     }
-}
-
-/// A table of functions; `rest` are its other fields.
-fn refused(rest: &str) -> String {
-    let place = Place::new();
-    let inputs = r#""x": Range(from: 0, to: 1), "y": Range(from: 0, to: 1)"#;
-    place.file("f.ron", format!("Table(language: 1, name: \"f\", inputs: {{{inputs}}},\n{rest}\n)\n"));
-    let said = place.run("check f.ron");
-    assert_eq!(said.code, Some(2), "{}", said.all());
-    said.err
-}
-
-#[test]
-fn functions_that_are_none() {
-    let of = |value: &str| format!(r#"functions: {{"g": Function(parameters: ["x"], value: "{value}")}}"#);
-    let with = |helpers: &str, value: &str| format!("helpers: {{{helpers}}},\n{}", of(value));
-    let mut said = String::new();
-    for (what, rest) in [
-        ("a function calls itself", with(r#""a(t)": "b(t)", "b(t)": "1 + a(t)""#, "a(x)")),
-        ("by way of a public one", r#"functions: {"g": Function(parameters: ["x"], value: "g(x = x / 2)")}"#.to_owned()),
-        ("wrong arity", with(r#""a(t)": "t""#, "a(x, 1)")),
-        ("no arity", with(r#""a()": "1""#, "a(x)")),
-        ("unknown function", of("sine(x)")),
-        ("unknown helper", with(r#""sinc(t)": "t""#, "sinq(x)")),
-        ("unknown parameter", with(r#""a(t)": "t""#, "a(u = x)")),
-        ("parameter not given", with(r#""a(t)": "t""#, "a()")),
-        ("parameter not declared", r#"functions: {"g": Function(parameters: ["z"], value: "z")}"#.to_owned()),
-        ("an input that is no parameter", of("x + y")),
-        ("a sum with many terms", of("sum(i in 1 .. 1000000000, x / i)")),
-        ("a sum without terms", of("sum(i in 1 .. 0, x)")),
-        ("a sum without constant bounds", of("sum(i in 1 .. x, x)")),
-        ("no such list", of("sum(n in nodes, n)")),
-        ("constants that vary", format!(r#"constants: {{"c": ["x"]}}, {}"#, of("sum(n in c, n * x)"))),
-        ("a list as a number", format!(r#"constants: {{"c": [1, 2]}}, {}"#, of("x * c"))),
-        ("bounds of nothing", of("x | x = 0 .. 1")),
-        ("a condition as result", of("x < 0.5")),
-        ("records that differ", of("if x < 0.5 { {a: x, b: 1} } else { {a: x} }")),
-        ("a number that a record has not", of("{a: x}.b")),
-        ("an argument out of range", r#"functions: {"g": Function(parameters: ["x"], value: "h(x = 2)"), "h": Function(parameters: ["x"], value: "x")}"#.to_owned()),
-        ("cases and functions", format!("output: Number(), {}", of("x"))),
-        ("no value", r#"functions: {"g": Function(parameters: ["x"])}"#.to_owned()),
-        ("no last line", with(r#""a(t)": [("t", "t < 1")]"#, "a(x)")),
-        ("no signature", with(r#""a t": "t""#, "x")),
-        ("a name of the language", with(r#""sin(t)": "t""#, "x")),
-        ("names that differ in capitals", r#"functions: {"g": Function(parameters: ["x"], value: "x"), "G": Function(parameters: ["x"], value: "x")}"#.to_owned()),
-        ("no file to import", format!(r#"imports: {{"m": "missing.ron"}}, {}"#, of("m.f(x)"))),
-        ("a circle of imports", format!(r#"imports: {{"m": "f.ron"}}, {}"#, of("m.g(x)"))),
-        ("an accuracy that is not reached", r#"functions: {"g": Function(parameters: ["x"], value: "(x + 1000) - 1000", error: (times: 2, scale: "x"))}"#.to_owned()),
-        ("a limit that is another", r#"functions: {"g": Function(parameters: ["x", "y"], value: "sin(x * y) / x", limits: [(at: {"x": 0}, value: "y * y")])}"#.to_owned()),
-    ] {
-        let _ = writeln!(said, "---- {what}\n{}", refused(&rest));
-    }
-    insta::assert_snapshot!(said);
 }
 
 #[test]

@@ -12,6 +12,7 @@ mod render;
 mod report;
 #[path = "../support/mod.rs"]
 mod support;
+mod tables;
 mod tools;
 mod why;
 mod worked_values;

@@ -4,7 +4,7 @@ use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::support::Place;
+use crate::support::{OrPanic as _, Place};
 
 const UNTIDY: &str = "Table(language:1, name:\"dim\", hit_policy:First, // a dim
 inputs:{\"x\":Range(from:0,to:1)}, output:Number(), cases:[Case(id:1,when:true,value:\"x/2\")], default:0)";
@@ -24,7 +24,7 @@ const TIDY: &str = "Table(
 
 fn write(place: &Place, name: &str, text: &str) {
     let path = place.path(name);
-    std::fs::create_dir_all(path.parent().unwrap_or(&path)).unwrap_or_else(|e| panic!("{e}"));
+    std::fs::create_dir_all(path.parent().unwrap_or(&path)).or_panic();
     place.file(name, text);
 }
 
@@ -124,7 +124,7 @@ fn watch_builds_again_and_keeps_what_was_right() {
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
-        .unwrap_or_else(|e| panic!("{e}"));
+        .or_panic();
     let (send, lines) = std::sync::mpsc::channel();
     let out: [Box<dyn std::io::Read + Send>; 2] = [
         Box::new(child.stdout.take().unwrap_or_else(|| panic!("a pipe"))),
@@ -220,9 +220,9 @@ fn the_tutorial_works() {
         .env("OUT_DIR", place.path("out"))
         .current_dir(place.path(""))
         .status()
-        .unwrap_or_else(|e| panic!("{e}"));
+        .or_panic();
     assert!(compiled.success());
-    let ran = Command::new(place.path("main")).output().unwrap_or_else(|e| panic!("{e}"));
+    let ran = Command::new(place.path("main")).output().or_panic();
     assert!(String::from_utf8_lossy(&ran.stdout).contains("fn paint("));
     // The change, and the mistake.
     let change = blocks(text, "ron,change")[0].trim().to_owned();
@@ -254,8 +254,8 @@ fn the_terrain_is_the_expected_one() {
         .env("OUT_DIR", place.path("out"))
         .current_dir(place.path(""))
         .status()
-        .unwrap_or_else(|e| panic!("{e}"));
+        .or_panic();
     assert!(compiled.success());
-    let tested = Command::new(place.path("terrain")).output().unwrap_or_else(|e| panic!("{e}"));
+    let tested = Command::new(place.path("terrain")).output().or_panic();
     assert!(tested.status.success(), "{}", String::from_utf8_lossy(&tested.stdout));
 }

@@ -6,6 +6,7 @@
 
 use std::process::Command;
 
+use crate::support::OrPanic as _;
 use umbrage::emit;
 use umbrage::emit::GlslVersion;
 use umbrage::emit::kernel::columns;
@@ -21,12 +22,12 @@ fn glslang_accepts_every_version() {
     }
     let folder = tempfile::tempdir().expect("a temporary directory");
     for table in ["tables/smsr.ron", "tables/rsmss.ron"] {
-        let program = Program::read(table).unwrap_or_else(|error| panic!("{error}"));
+        let program = Program::read(table).or_panic();
         for shape in Shape::ALL {
             if shape == Shape::Gathered && program.fetched.is_empty() {
                 continue;
             }
-            let proved = Plan::proved(&program, shape).unwrap_or_else(|error| panic!("{error}"));
+            let proved = Plan::proved(&program, shape).or_panic();
             for (version, stage) in
                 [(GlslVersion::V450, "comp"), (GlslVersion::V330, "frag"), (GlslVersion::Es300, "frag")]
             {

@@ -1,16 +1,11 @@
 //! What WGSL admits, against what the interpreters compute.
 
+use crate::support::parsed;
 use proptest::prelude::*;
 use umbrage::diag::Source;
 use umbrage::eval::{Interpreter, Interval, IntervalInterpreter, NeedsFetch};
 use umbrage::program::{BinaryOp, Domain, InputId, Program, Real, TernaryOp, UnaryOp, Value};
 use umbrage::table::Table;
-
-fn program(text: &str) -> Program {
-    Table::parse(Source::new("test.ron", text))
-        .and_then(|table| Program::check(&table))
-        .unwrap_or_else(|e| panic!("{e}"))
-}
 
 /// Both interpreters agree with the intervals at a point; returns how many outcomes are admissible there.
 fn agree(
@@ -105,7 +100,7 @@ const LAZY: &str = r#"Table(language: 1, name: "t", hit_policy: First,
 
 #[test]
 fn an_absent_input_fails_only_if_the_exact_evaluation_needs_it() {
-    let program = program(LAZY);
+    let program = parsed(LAZY);
     let mut intervals = IntervalInterpreter::new(&program);
     let mut at = |x: f32, f: Option<u8>| {
         intervals.admissible(&[Some(Value::Number(f64::from(x))), f.map(Value::Level)]).map(|all| all.outcomes.len())
@@ -121,7 +116,7 @@ fn an_absent_input_fails_only_if_the_exact_evaluation_needs_it() {
 
 #[test]
 fn jumps_admit_both_sides_and_nothing_between() {
-    let program = program(
+    let program = parsed(
         r#"Table(language: 1, name: "t", hit_policy: First, inputs: { "x": Range(from: 0, to: 1) }, output: Number(),
             cases: [Case(id: 1, when: "x >= 0", value: "step(0.9, 1 - x) + floor(x)")], default: 0)"#,
     );
@@ -134,7 +129,7 @@ fn jumps_admit_both_sides_and_nothing_between() {
 #[test]
 fn too_many_forks_admit_everything() {
     let terms: Vec<String> = (0..12).map(|k| format!("step({}, x * 0.1)", 0.05 + f64::from(k) * 1e-10)).collect();
-    let program = program(&format!(
+    let program = parsed(&format!(
         r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{ "x": Range(from: 0, to: 1) }}, output: Number(),
             cases: [Case(id: 1, when: "x >= 0", value: "{}")], default: 0)"#,
         terms.join(" + ")

@@ -11,5 +11,7 @@ mod integrals;
 mod intervals;
 #[cfg(feature = "trial")]
 mod published_numbers;
+#[path = "../support/mod.rs"]
+mod support;
 #[cfg(feature = "trial")]
 mod trial;

@@ -3,17 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::support::published;
 use umbrage::analyse::trial::{Violation, violations, violations_under};
 use umbrage::analyse::{coverage, overlaps};
 use umbrage::program::{Assumption, Program, reachable};
-
-fn smsr() -> Program {
-    Program::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"))
-}
-
-fn rsmss() -> Program {
-    Program::read("tables/rsmss.ron").unwrap_or_else(|e| panic!("{e}"))
-}
 
 fn assumed<'p>(program: &'p Program, names: &[&str]) -> Vec<&'p Assumption> {
     let found: Vec<_> = program.assumptions.iter().filter(|a| names.contains(&a.name.as_str())).collect();
@@ -45,7 +38,7 @@ fn level(program: &Program, state: usize, input: &str) -> String {
 
 #[test]
 fn states_and_those_that_no_case_claims() {
-    for (program, states, unclaimed) in [(smsr(), 576, 4), (rsmss(), 1152, 36)] {
+    for (program, states, unclaimed) in [(published("smsr"), 576, 4), (published("rsmss"), 1152, 36)] {
         let coverage = coverage(&program);
         assert_eq!((coverage.states, coverage.unclaimed.len()), (states, unclaimed));
         assert!(coverage.open.is_empty() && coverage.dead.is_empty());
@@ -61,7 +54,7 @@ fn states_and_those_that_no_case_claims() {
 /// both put in, what they admit are the states that occur, one for one.
 #[test]
 fn states_that_occur() {
-    for (program, admitted, occur) in [(smsr(), 148, 63), (rsmss(), 296, 126)] {
+    for (program, admitted, occur) in [(published("smsr"), 148, 63), (published("rsmss"), 296, 126)] {
         let states = reachable(&program);
         assert_eq!(states.len(), admitted);
         let entered = states.iter().filter(|state| {
@@ -76,7 +69,7 @@ fn states_that_occur() {
 
 #[test]
 fn overlaps_of_smsr() {
-    let overlaps = overlaps(&smsr());
+    let overlaps = overlaps(&published("smsr"));
     let pairs: Vec<_> =
         overlaps.iter().map(|o| (o.first + 1, o.second + 1, o.states_equal, o.states_different)).collect();
     assert_eq!(pairs, [(1, 2, 0, 128), (1, 3, 0, 140), (2, 3, 140, 0)]);
@@ -93,7 +86,7 @@ fn overlaps_of_smsr() {
 /// overlap is added in each. That is 48 more, where its numbers say 476 - 396 = 80.
 #[test]
 fn overlaps_of_rsmss() {
-    let program = rsmss();
+    let program = published("rsmss");
     let overlaps = overlaps(&program);
     let (equal, different) = overlaps.iter().fold((0, 0), |(e, d), o| (e + o.states_equal, d + o.states_different));
     assert_eq!((equal + different, different), (356, 340));
@@ -115,7 +108,7 @@ fn overlaps_of_rsmss() {
 
 #[test]
 fn symmetries_of_smsr() {
-    let program = smsr();
+    let program = published("smsr");
     assert_eq!(broken(&program, "mirror_x", &[]).len(), 0);
     assert_eq!(broken(&program, "mirror_y", &[]).len(), 0);
     // 6 and 7 read the horizontal run only; the other one is tied to it by I4.
@@ -127,7 +120,7 @@ fn symmetries_of_smsr() {
 /// Defects A (cases 4 and 6) and B (9 and 11), and nothing else.
 #[test]
 fn symmetries_of_rsmss() {
-    let program = rsmss();
+    let program = published("rsmss");
     let of = |name: &str, under: &[&str]| by_case(&program, &broken(&program, name, under));
     assert_eq!(of("mirror_x", &[]), BTreeMap::from([((6, 6), 8), ((9, 9), 8)]));
     assert_eq!(of("mirror_y", &[]), BTreeMap::from([((4, 4), 8), ((6, 6), 8), ((11, 11), 8)]));
@@ -145,7 +138,7 @@ fn symmetries_of_rsmss() {
 /// the inputs, and its dual holds only for runs as they occur.
 #[test]
 fn duality_of_rsmss() {
-    let program = rsmss();
+    let program = published("rsmss");
     let complement = program.symmetries.iter().find(|s| s.name == "complement").expect("declared");
     let all = violations(&program, complement);
     let entering = |v: &&Violation| level(&program, v.state, "b") == "entering";

@@ -1,9 +1,13 @@
-//! Runs the built command in a directory of its own.
-#![allow(dead_code, clippy::unwrap_used, unreachable_pub)]
+//! Shared by all tests: the built command in a directory of its own, and the library's programs.
+#![allow(dead_code, unused_imports, clippy::unwrap_used, unreachable_pub)]
+
+mod library;
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+
+pub use library::*;
 
 /// A directory that is removed with this value; commands run in it.
 pub struct Place {
@@ -61,32 +65,14 @@ impl Place {
 
     /// The same, with something on standard input.
     pub fn run_with(&self, arguments: &str, input: &str) -> Said {
-        self.said(Command::new(env!("CARGO_BIN_EXE_umbrage")).args(arguments.split_whitespace()), input)
+        said_in(self.directory.path(), umbrage().args(arguments.split_whitespace()), input)
     }
 
     /// Runs `umbrage` in a shell with another umask.
     #[cfg(unix)]
     pub fn run_under(&self, umask: &str, arguments: &str) -> Said {
         let command = format!("umask {umask} && exec {} {arguments}", env!("CARGO_BIN_EXE_umbrage"));
-        self.said(Command::new("sh").args(["-c", &command]), "")
-    }
-
-    fn said(&self, command: &mut Command, input: &str) -> Said {
-        let mut child = command
-            .current_dir(self.directory.path())
-            .env_remove("RUST_BACKTRACE")
-            // Without it Mesa complains on standard error, where only the command should speak.
-            .env("XDG_RUNTIME_DIR", self.directory.path())
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        // A command that does not want its input may close it.
-        let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
-        let output = child.wait_with_output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        Said { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+        said_in(self.directory.path(), Command::new("sh").args(["-c", &command]), "")
     }
 
     /// The names of all files, sorted.
@@ -96,4 +82,28 @@ impl Place {
         names.sort();
         names
     }
+}
+
+/// The built command.
+pub fn umbrage() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_umbrage"))
+}
+
+/// Runs a command in a directory, with something on standard input.
+pub fn said_in(directory: &Path, command: &mut Command, input: &str) -> Said {
+    let mut child = command
+        .current_dir(directory)
+        .env_remove("RUST_BACKTRACE")
+        // Without it Mesa complains on standard error, where only the command should speak.
+        .env("XDG_RUNTIME_DIR", std::env::temp_dir())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A command that does not want its input may close it.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    let output = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Said { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
 }

@@ -14,6 +14,8 @@ Usage: cargo xtask <task> [arguments]
 
   test [--no-gpu-setup] [ARGS]   set up what the tests need, then run all of them;
                                  ARGS go to the main `cargo test`
+  test --fast [ARGS]             what needs no adapter, no other tool and no other crate: for
+                                 work, under two minutes from a warm build
   ci [ARGS]                      formatting, lints and documentation, then test
   features                       check that each feature compiles alone
   msrv                           check with the oldest Rust that is promised, if rustup has it
@@ -32,6 +34,7 @@ fn main() -> ExitCode {
     };
     let mut steps = Steps::default();
     let result = match task {
+        "test" if rest.iter().any(|argument| argument == "--fast") => fast(&mut steps, rest),
         "test" => test(&mut steps, rest),
         "ci" => lint(&mut steps).and_then(|()| test(&mut steps, rest)),
         "features" => features(&mut steps),
@@ -106,6 +109,14 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
     features(steps)
 }
 
+/// What is worth its time after every change: the library, the compiler and the command, on the CPU.
+fn fast(steps: &mut Steps, arguments: &[String]) -> Result {
+    // One package with its default features, so that what the full run has built is used.
+    let mut tests = cargo(&["test", "--features", "umbrage/trial", "--lib", "--test", "compiler", "--test", "cli"]);
+    tests.env("UMBRAGE_NO_ADAPTER", "1").args(arguments.iter().filter(|argument| *argument != "--fast"));
+    steps.run("fast tests", tests)
+}
+
 /// The compiler alone, and each feature alone. Only checked, not built: no second wgpu, no second set of tests.
 fn features(steps: &mut Steps) -> Result {
     for feature in ["", "precise", "report", "render", "gpu", "cli", "trial"] {
@@ -167,7 +178,7 @@ fn bless(steps: &mut Steps) -> Result {
         let (from, to) = (format!("tables/{table}.ron"), format!("docs/images/{table}.svg"));
         steps.run("atlas", cargo(&["run", "--release", "--", "atlas", &from, "--output", &to]))?;
     }
-    let mut snapshots = cargo(&["test", "--workspace"]);
+    let mut snapshots = cargo(&["test", "--workspace", "--features", "umbrage/trial"]);
     snapshots.env("INSTA_UPDATE", "always");
     steps.run("snapshots", snapshots)
 }

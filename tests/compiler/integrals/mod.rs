@@ -10,6 +10,7 @@ mod oracle;
 
 use std::collections::BTreeMap;
 
+use crate::support::OrPanic as _;
 use inputs::{Cell, Random, SLOPES, cell};
 use oracle::{EPSILON, Rules, sensitivity};
 use umbrage::diag::Source;
@@ -23,16 +24,16 @@ struct Function(Program);
 impl Function {
     fn read(table: &str, name: &str) -> Self {
         let path = format!("{}/tables/{table}.ron", env!("CARGO_MANIFEST_DIR"));
-        Self(Program::read_function(path, Some(name)).unwrap_or_else(|e| panic!("{e}")))
+        Self(Program::read_function(path, Some(name)).or_panic())
     }
 
     /// A function of what a printed table becomes by itself.
     fn stabilised(table: &str, name: &str) -> Self {
         let path = format!("{}/tables/{table}_printed.ron", env!("CARGO_MANIFEST_DIR"));
-        let printed = Table::read(path).unwrap_or_else(|e| panic!("{e}"));
-        let text = umbrage::stabilise::stabilise(&printed).unwrap_or_else(|e| panic!("{e}")).text;
-        let table = Table::parse(Source::new("stable.ron", text)).unwrap_or_else(|e| panic!("{e}"));
-        let programs = Program::check_all(&table).unwrap_or_else(|e| panic!("{e}"));
+        let printed = Table::read(path).or_panic();
+        let text = umbrage::stabilise::stabilise(&printed).or_panic().text;
+        let table = Table::parse(Source::new("stable.ron", text)).or_panic();
+        let programs = Program::check_all(&table).or_panic();
         let named = |program: &Program| program.function.as_ref().is_some_and(|f| f.name == name);
         Self(programs.into_iter().find(named).expect("the table has this function"))
     }
@@ -57,10 +58,10 @@ impl Function {
                 use umbrage::{emit, eval::Columns, gpu, plan};
                 let rows = points.iter().map(|named| self.point(named));
                 let columns = Columns::<f32>::from_rows(&self.0, rows).unwrap_or_else(|e| panic!("{e:?}"));
-                let proved = plan::Plan::proved(&self.0, plan::Shape::Ladder).unwrap_or_else(|e| panic!("{e}"));
+                let proved = plan::Plan::proved(&self.0, plan::Shape::Ladder).or_panic();
                 let entry = emit::kernel::columns::Entry::Levels;
                 let kernel = gpu::Kernel::new(gpu, &proved, entry, gpu::Language::Wgsl);
-                let outputs = kernel.and_then(|kernel| kernel.run(&columns)).unwrap_or_else(|e| panic!("{e}"));
+                let outputs = kernel.and_then(|kernel| kernel.run(&columns)).or_panic();
                 outputs.values[0].iter().map(|v| f64::from(*v)).collect()
             }
         }
@@ -78,9 +79,7 @@ impl Executor {
     /// An adapter, if there is one.
     #[cfg(feature = "gpu")]
     fn gpu() -> Option<Self> {
-        let gpu = umbrage::gpu::Gpu::open(&umbrage::gpu::AdapterChoice::Any).ok();
-        assert!(gpu.is_some() || std::env::var_os("UMBRAGE_REQUIRE_ADAPTER").is_none(), "no adapter");
-        gpu.map(Box::new).map(Self::Gpu)
+        crate::support::adapter().map(Box::new).map(Self::Gpu)
     }
 }
 
