@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use umbrage::diag::Source;
 use umbrage::eval::Interpreter;
 use umbrage::program::Program;
+use umbrage::program::operators::{Notation, Operator};
 use umbrage::table::Table;
 
 fn root() -> &'static Path {
@@ -101,12 +102,23 @@ fn the_tutorial_shows_its_table() {
     }
 }
 
-/// The reference names every function, every diagnostic code and every word it reserves.
+/// The reference lists the functions on numbers as the table of operators has them.
+#[test]
+fn the_reference_lists_the_operators() {
+    let row = |op: Operator| match op.notation() {
+        Notation::Function(name, arguments) => Some(format!("| `{name}({arguments})` | {} |\n", op.doc())),
+        Notation::Prefix(_) | Notation::Infix(_) => None,
+    };
+    let rows: String = Operator::all().filter_map(row).collect();
+    let text = read(&root().join("docs/language.md"));
+    assert!(text.contains(&rows), "the table of functions in docs/language.md must have these rows:\n{rows}");
+}
+
+/// The reference names every other function, every diagnostic code and every word it reserves.
 #[test]
 fn the_reference_is_complete() {
     let text = read(&root().join("docs/language.md"));
-    let functions = umbrage::program::operators::Operator::functions().map(|(name, _)| name);
-    for name in functions.chain(["f32", "select", "vec2", "dot", "length", "distance", "normalize", "cross"]) {
+    for name in ["f32", "select", "vec2", "dot", "length", "distance", "normalize", "cross", "poly"] {
         assert!(text.contains(&format!("`{name}(")), "`{name}` is not explained");
     }
     for entry in umbrage::diag::codes::ALL {
