@@ -5,6 +5,9 @@
 //! a declaration that nothing uses, cases that contradict each other. Each
 //! analysis is a file of its own.
 
+// A new operation, step or target must be thought of wherever one is told from another.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 pub(crate) mod findings;
 mod lints;
 mod sets;

@@ -89,14 +89,9 @@ fn comparison(program: &Program, form: &Affine, signs: LevelSet) -> String {
 
 /// A value without the clamp of the output.
 pub(super) fn bare(space: &Space<'_>, value: ExprId) -> ExprId {
-    match space.pool.node(value) {
-        Node::Ternary(TernaryOp::Clamp, inner, lo, hi)
-            if space.pool.constant(lo).is_some() && space.pool.constant(hi).is_some() =>
-        {
-            inner
-        }
-        _ => value,
-    }
+    let Node::Ternary(TernaryOp::Clamp, inner, lo, hi) = space.pool.node(value) else { return value };
+    let bounded = space.pool.constant(lo).is_some() && space.pool.constant(hi).is_some();
+    if bounded { inner } else { value }
 }
 
 /// Values simplified, as one writes them by hand; for what came about by replacing inputs.
@@ -137,7 +132,7 @@ fn affine(program: &Program, form: &Affine) -> String {
     let mut parts: Vec<(bool, String)> = Vec::new();
     let name = |term: &Term| match term {
         Term::Input(input) => program.inputs[input.index()].name.clone(),
-        _ => "...".to_owned(),
+        Term::Constant(_) | Term::Unary(..) | Term::Binary(..) | Term::Ternary(..) => "...".to_owned(),
     };
     let constant = (form.constant.is_negative(), number(form.constant.abs()));
     if form.constant.is_positive() {

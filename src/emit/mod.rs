@@ -5,6 +5,9 @@
 //! language decides how. A file of `targets` is one form of that. What comes out depends on the table and the options
 //! alone, so it is the same bytes on every machine.
 
+// A new operation, step or target must be thought of wherever one is told from another.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 pub(crate) mod function;
 mod host;
 mod imports;
@@ -62,6 +65,18 @@ pub fn emit(proved: &Proved<'_>, target: Target) -> Result<Vec<u8>, Failure> {
 /// As [`emit`].
 pub fn emit_all(plans: &[Proved<'_>], target: Target, siblings: &[SiblingFile]) -> Result<Vec<u8>, Failure> {
     target.write(plans, siblings)
+}
+
+/// Plans in a language that naga writes, from their validated WGSL.
+fn translated(plans: &[Proved<'_>], program: &Program, language: Translated) -> Result<Vec<u8>, Failure> {
+    let columns = plans.iter().map(|plan| kernel::columns::wgsl_columns(plan, kernel::columns::Entry::Key));
+    let module = wgsl_module(program, &columns.collect::<Vec<_>>().join("\n"))?;
+    let mut out = translate(program, &module, language)?;
+    if language != Translated::SpirV {
+        let headers: String = plans.iter().map(module::header).collect();
+        out.splice(0..0, headers.into_bytes());
+    }
+    Ok(out)
 }
 
 /// The WGSL module of a plan.

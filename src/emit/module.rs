@@ -315,7 +315,7 @@ impl Writer<'_, '_> {
         let pass = |parameters: &[(String, Type)]| {
             let names = parameters.iter().map(|(name, ty)| match ty {
                 Type::Site => self.dialect.site_argument().to_owned(),
-                _ => name.clone(),
+                Type::Float | Type::Uint | Type::Bool | Type::Pair | Type::Value(_) | Type::Result => name.clone(),
             });
             names.collect::<Vec<_>>().join(", ")
         };

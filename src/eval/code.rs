@@ -243,6 +243,7 @@ fn map3<T: Copy>(out: &mut [T], a: Argument<'_, T>, b: Argument<'_, T>, c: Argum
 
 // With the operation a literal, each arm becomes a loop of its own without dispatch inside.
 
+#[allow(clippy::wildcard_enum_match_arm, reason = "the arms with a literal are for speed and change no result")]
 fn unary<T: Real>(op: UnaryOp, out: &mut [T], a: Argument<'_, T>) {
     match op {
         UnaryOp::Negate => map(out, a, |a| T::unary(UnaryOp::Negate, a)),
@@ -262,7 +263,7 @@ fn binary<T: Real>(op: BinaryOp, out: &mut [T], a: Argument<'_, T>, b: Argument<
         BinaryOp::Max => map2(out, a, b, |a, b| T::binary(BinaryOp::Max, a, b)),
         BinaryOp::Min => map2(out, a, b, |a, b| T::binary(BinaryOp::Min, a, b)),
         BinaryOp::Step => map2(out, a, b, |a, b| T::binary(BinaryOp::Step, a, b)),
-        _ => map2(out, a, b, |a, b| T::binary(op, a, b)),
+        BinaryOp::Remainder | BinaryOp::Atan2 | BinaryOp::Pow => map2(out, a, b, |a, b| T::binary(op, a, b)),
     }
 }
 
@@ -280,6 +281,6 @@ fn ternary<T: Real>(op: TernaryOp, out: &mut [T], a: Argument<'_, T>, b: Argumen
     match op {
         TernaryOp::Clamp => map3(out, a, b, c, |a, b, c| T::ternary(TernaryOp::Clamp, a, b, c)),
         TernaryOp::Mix => map3(out, a, b, c, |a, b, c| T::ternary(TernaryOp::Mix, a, b, c)),
-        _ => map3(out, a, b, c, |a, b, c| T::ternary(op, a, b, c)),
+        TernaryOp::Fma | TernaryOp::Smoothstep => map3(out, a, b, c, |a, b, c| T::ternary(op, a, b, c)),
     }
 }

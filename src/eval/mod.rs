@@ -7,6 +7,9 @@
 //! accuracy rules admit, to judge implementations by, and `Precise` (feature `precise`)
 //! those in hundreds of bits, to judge `f32` by. Nothing here knows plans or shading languages.
 
+// A new operation, step or target must be thought of wherever one is told from another.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 mod admissible;
 mod batch;
 mod code;

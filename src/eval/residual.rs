@@ -175,7 +175,7 @@ impl<'p, T: Real> Residual<'p, T> {
     pub(super) fn specialise(&mut self, levels: &[u8]) -> TreeId {
         let known = |(id, input): (InputId, &crate::program::Input)| match &input.domain {
             Domain::Discrete(all) if input.fetched.is_some() => LevelSet::all(all.count()),
-            _ => LevelSet::one(levels[id.index()]),
+            Domain::Discrete(_) | Domain::Continuous { .. } => LevelSet::one(levels[id.index()]),
         };
         let known = Known {
             levels: self.program.input_ids().map(known).collect(),
@@ -443,7 +443,12 @@ impl<'p, T: Real> Residual<'p, T> {
     fn constant(&self, term: TermId) -> Option<T> {
         match self.terms[term.index()] {
             Term::Const(number) => Some(T::from_f64(number.get())),
-            _ => None,
+            Term::Input(_)
+            | Term::Unary(..)
+            | Term::Binary(..)
+            | Term::Ternary(..)
+            | Term::Compare(..)
+            | Term::Choose(..) => None,
         }
     }
 

@@ -242,7 +242,9 @@ impl<'p> Builder<'p> {
             Cond::Not(inner) => self.may_be(*inner, !value, known),
             Cond::And(parts) if !value => parts.iter().any(|part| self.may_be(*part, false, known)),
             Cond::Or(parts) if value => parts.iter().any(|part| self.may_be(*part, true, known)),
-            _ => self.missing(self.pool.cond_facts(condition).inputs, known).is_empty(),
+            Cond::Const(_) | Cond::Level(..) | Cond::Compare(..) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => {
+                self.missing(self.pool.cond_facts(condition).inputs, known).is_empty()
+            }
         }
     }
 

@@ -61,7 +61,9 @@ impl Knowledge {
             Cond::Not(inner) => self.assume(pool, *inner, !value),
             Cond::And(parts) if value => parts.iter().for_each(|part| self.assume(pool, *part, true)),
             Cond::Or(parts) if !value => parts.iter().for_each(|part| self.assume(pool, *part, false)),
-            _ => self.tested.push((condition, value)),
+            Cond::Const(_) | Cond::Compare(..) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => {
+                self.tested.push((condition, value))
+            }
         }
     }
 

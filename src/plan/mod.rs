@@ -5,6 +5,9 @@
 //! their own, so that "at most once, and only where needed" can be read off
 //! the graph and is part of what [`prove`](crate::prove) proves.
 
+// A new operation, step or target must be thought of wherever one is told from another.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 mod arms;
 mod builder;
 mod coefficients;

@@ -14,6 +14,9 @@
 //!
 //! Assumptions and symmetries are carried along but never change the meaning.
 
+// A new operation, step or target must be thought of wherever one is told from another.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 pub(crate) mod claims;
 mod domain;
 pub mod draw;

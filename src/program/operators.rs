@@ -195,6 +195,8 @@ pub struct Unary {
     pub is_plain: bool,
     /// Has results that no `f32` can hold already for moderate operands.
     pub is_exponential: bool,
+    /// The operator that functions with a claimed accuracy use instead, where WGSL promises too little for this one.
+    pub portable: Option<UnaryOp>,
     /// Its form in generated code.
     pub spellings: Spellings,
 }
@@ -217,8 +219,13 @@ impl Unary {
             algebra: UnaryAlgebra::Opaque,
             is_plain: false,
             is_exponential: false,
+            portable: None,
             spellings: Spellings::shared(rust),
         }
+    }
+
+    const fn portable(self, portable: UnaryOp) -> Self {
+        Self { portable: Some(portable), ..self }
     }
 
     const fn narrow(self, narrow: fn(f32) -> f32) -> Self {
@@ -388,7 +395,8 @@ operators! {
     Atan = Unary::function("atan", "arc tangent, in radians", libm::atan, Increasing, Wide("atan"));
     Atanh = Unary::function("atanh", "inverse of `tanh`", libm::atanh, Increasing, Wide("atanh")).on(BETWEEN_ONES);
     Ceil = Unary::function("ceil", "nearest integer above", f64::ceil, Steps, Call("f32::ceil")).plain();
-    Cos = Unary::function("cos", "cosine of an angle in radians", libm::cos, Wave { peak: 0.0 }, Wide("cos"));
+    Cos = Unary::function("cos", "cosine of an angle in radians", libm::cos, Wave { peak: 0.0 }, Wide("cos"))
+        .portable(UnaryOp::PortableCos);
     Cosh = Unary::function("cosh", "hyperbolic cosine", libm::cosh, Valley, Wide("cosh")).exponential();
     Degrees = Unary::function("degrees", "from radians to degrees", f64::to_degrees, Increasing, Wide("to_degrees"))
         .plain();
@@ -422,7 +430,8 @@ operators! {
         .spelled(Spelling::Same, Text("clamp({a:bare}, 0.0, 1.0)")).algebra(One::Saturate).plain();
     Sign = Unary::function("sign", "-1, 0 or 1", sign, Steps,
         Text("({ let t: f32 = {a:bare}; if t > 0.0 { 1.0 } else if t < 0.0 { -1.0 } else { t * 0.0 } })")).plain();
-    Sin = Unary::function("sin", "sine of an angle in radians", libm::sin, Wave { peak: FRAC_PI_2 }, Wide("sin"));
+    Sin = Unary::function("sin", "sine of an angle in radians", libm::sin, Wave { peak: FRAC_PI_2 }, Wide("sin"))
+        .portable(UnaryOp::PortableSin);
     Sinh = Unary::function("sinh", "hyperbolic sine", libm::sinh, Increasing, Wide("sinh")).exponential();
     Sqrt = Unary::function("sqrt", "square root", f64::sqrt, Increasing, Call("f32::sqrt"))
         .on(Operands::from(0.0, "can be the root of a negative number")).narrow(f32::sqrt);

@@ -277,18 +277,14 @@ impl Pool {
 
     /// The constant an expression is, if it is one.
     pub fn constant(&self, id: ExprId) -> Option<f64> {
-        match self.node(id) {
-            Node::Const(number) => Some(number.get()),
-            _ => None,
-        }
+        let Node::Const(number) = self.node(id) else { return None };
+        Some(number.get())
     }
 
     /// The truth value a condition is, if it is constant.
     pub fn truth(&self, id: CondId) -> Option<bool> {
-        match self.cond(id) {
-            Cond::Const(value) => Some(*value),
-            _ => None,
-        }
+        let Cond::Const(value) = self.cond(id) else { return None };
+        Some(*value)
     }
 
     fn intern(&mut self, node: Node) -> ExprId {
@@ -375,12 +371,14 @@ impl Pool {
 
     /// An operation whose operands became known later: folded if [`Pool::folds`] says so, else left as it is.
     pub fn rebuild(&mut self, node: Node) -> ExprId {
+        if !self.folds(node) {
+            return self.intern(node);
+        }
         match node {
-            node if !self.folds(node) => self.intern(node),
             Node::Unary(op, a) => self.unary(op, a),
             Node::Binary(op, a, b) => self.binary(op, a, b),
             Node::Ternary(op, a, b, c) => self.ternary(op, a, b, c),
-            node => self.intern(node),
+            Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => self.intern(node),
         }
     }
 
@@ -459,7 +457,9 @@ impl Pool {
                 self.always(value)
             }
             Cond::Not(inner) => *inner,
-            _ => self.intern_cond(Cond::Not(a)),
+            Cond::Level(..) | Cond::Compare(..) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => {
+                self.intern_cond(Cond::Not(a))
+            }
         }
     }
 
@@ -480,7 +480,13 @@ impl Pool {
             let parts = match self.cond(item) {
                 Cond::And(parts) if is_and => parts.clone(),
                 Cond::Or(parts) if !is_and => parts.clone(),
-                _ => vec![item],
+                Cond::Const(_)
+                | Cond::Level(..)
+                | Cond::Compare(..)
+                | Cond::Not(_)
+                | Cond::And(_)
+                | Cond::Or(_)
+                | Cond::If(..) => vec![item],
             };
             for part in parts {
                 match self.truth(part) {

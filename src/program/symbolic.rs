@@ -283,7 +283,7 @@ impl<'p> Machine<'p> {
     fn possible_signs(&mut self, form: usize) -> LevelSet {
         let signs = self.choices.iter().filter_map(|choice| match choice.question {
             Question::Sign(form) => Some((form, choice.answer)),
-            _ => None,
+            Question::Level(_) | Question::Compare(..) => None,
         });
         let mut key: Vec<(usize, u8)> = signs.chain([(form, 0)]).collect();
         if let Some(known) = self.possible.get(&key) {

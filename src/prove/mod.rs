@@ -7,6 +7,9 @@
 //! whatever a shape does, it is judged by the steps that come out. What planner and prover both use is
 //! `program::{claims, reachable, symbolic, turn}`; each of these is tested against plain enumeration.
 
+// A new operation, step or target must be thought of wherever one is told from another.
+#![deny(clippy::wildcard_enum_match_arm)]
+
 mod exact;
 mod real;
 mod report;

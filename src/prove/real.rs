@@ -38,7 +38,12 @@ pub(super) fn prove(plan: &Plan<'_>, states: &[usize]) -> Result<Proof, Refusal>
                 let word = entry & ((1 << plan.symmetries.len()) - 1);
                 Turn::new(program, machine.pool(), &plan.symmetries, word, *state)
             }
-            _ => None,
+            Step::Test { .. }
+            | Step::Fetch { .. }
+            | Step::Gather { .. }
+            | Step::Switch { .. }
+            | Step::Coefficients { .. }
+            | Step::Leaf(_) => None,
         };
         let mut different = None;
         machine.any_path(*state, |machine| match prover.path(machine, *state, turn.as_ref()) {

@@ -49,6 +49,19 @@ pub enum ExprKind {
 }
 
 impl Expr {
+    /// The number, if this is one, with or without a sign.
+    pub fn literal(&self) -> Option<f64> {
+        if let ExprKind::Unary(UnaryOp::Negate, inner) = &self.kind {
+            return if let ExprKind::Number(number) = inner.kind { Some(-number) } else { None };
+        }
+        if let ExprKind::Number(number) = self.kind { Some(number) } else { None }
+    }
+
+    /// The name, if this is nothing but one.
+    pub fn name(&self) -> Option<&str> {
+        if let ExprKind::Name(name) = &self.kind { Some(name) } else { None }
+    }
+
     /// The expressions that this one is made of, in the order written.
     pub fn parts(&self) -> Vec<&Expr> {
         match &self.kind {

@@ -64,12 +64,8 @@ fn widen(range: &mut Option<(f64, f64)>, other: (f64, f64)) {
 
 /// The clamp of the output, if the value has it.
 fn clamp(study: &Study<'_>, value: ExprId) -> Option<(f64, f64)> {
-    match study.space.pool.node(value) {
-        Node::Ternary(TernaryOp::Clamp, _, lo, hi) => {
-            Some((study.space.pool.constant(lo)?, study.space.pool.constant(hi)?))
-        }
-        _ => None,
-    }
+    let Node::Ternary(TernaryOp::Clamp, _, lo, hi) = study.space.pool.node(value) else { return None };
+    Some((study.space.pool.constant(lo)?, study.space.pool.constant(hi)?))
 }
 
 /// The codes that are found here, and how.
@@ -266,9 +262,9 @@ fn equalities(study: &mut Study<'_>) -> Vec<Diagnostic> {
 }
 
 fn equality(program: &Program, conditions: &[CondId]) -> Option<(ExprId, ExprId)> {
-    conditions.iter().find_map(|condition| match program.pool.cond(*condition) {
-        Cond::Compare(Comparison::Equal, a, b) => Some((*a, *b)),
-        _ => None,
+    conditions.iter().find_map(|condition| {
+        let Cond::Compare(Comparison::Equal, a, b) = program.pool.cond(*condition) else { return None };
+        Some((*a, *b))
     })
 }
 

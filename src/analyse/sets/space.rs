@@ -322,12 +322,8 @@ impl<'p> Space<'p> {
     }
 
     fn clamped(&self, expr: ExprId) -> Option<(ExprId, f64, f64)> {
-        match self.pool.node(expr) {
-            Node::Ternary(TernaryOp::Clamp, inner, lo, hi) => {
-                Some((inner, self.pool.constant(lo)?, self.pool.constant(hi)?))
-            }
-            _ => None,
-        }
+        let Node::Ternary(TernaryOp::Clamp, inner, lo, hi) = self.pool.node(expr) else { return None };
+        Some((inner, self.pool.constant(lo)?, self.pool.constant(hi)?))
     }
 
     /// The normal form of a value without selections.

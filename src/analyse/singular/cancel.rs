@@ -83,6 +83,12 @@ fn quotients(pool: &Pool, expr: ExprId, factor: f64, divisor: Option<ExprId>, ou
             (None, None) => quotients(pool, a, factor, Some(b), out),
             (None, Some(_)) => out.push(Quotient { factor, term: expr, divisor }),
         },
-        _ => out.push(Quotient { factor, term: expr, divisor }),
+        Node::Const(_)
+        | Node::Input(_)
+        | Node::Result
+        | Node::Unary(..)
+        | Node::Binary(..)
+        | Node::Ternary(..)
+        | Node::Select(..) => out.push(Quotient { factor, term: expr, divisor }),
     }
 }

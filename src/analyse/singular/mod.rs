@@ -97,10 +97,11 @@ fn tries(zero: &Zero) -> usize {
 /// Whether the program divides by this expression there, and it is zero.
 fn fails_at(program: &Program, divisor: ExprId, point: &[Value]) -> bool {
     let trace = Trace::<f32>::run(program, point);
-    trace.order.iter().any(|expr| match program.pool.node(*expr) {
-        Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) => b == divisor && trace.value(b) == Some(0.0),
-        _ => false,
-    })
+    let divides = |expr: &ExprId| {
+        let node = program.pool.node(*expr);
+        matches!(node, Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) if b == divisor)
+    };
+    trace.value(divisor) == Some(0.0) && trace.order.iter().any(divides)
 }
 
 fn given(point: &[Value]) -> Vec<Option<Value>> {

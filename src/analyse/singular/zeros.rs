@@ -51,15 +51,17 @@ fn collect(program: &Program, normaliser: &mut Normaliser, expr: ExprId, all: &m
             collect(program, normaliser, a, all);
             collect(program, normaliser, b, all);
         }
-        _ => match affine(program, normaliser, expr) {
-            Some((terms, constant)) => match terms.as_slice() {
-                [] if constant == 0.0 => add(Zero::Everywhere),
-                [] => {}
-                [(input, factor)] => add(Zero::Fixed(*input, 0.0 - constant / factor)),
-                _ => add(Zero::Plane { factor: expr, terms, constant }),
-            },
-            None => add(Zero::Somewhere(expr)),
-        },
+        Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) | Node::Select(..) => {
+            match affine(program, normaliser, expr) {
+                Some((terms, constant)) => match terms.as_slice() {
+                    [] if constant == 0.0 => add(Zero::Everywhere),
+                    [] => {}
+                    [(input, factor)] => add(Zero::Fixed(*input, 0.0 - constant / factor)),
+                    _ => add(Zero::Plane { factor: expr, terms, constant }),
+                },
+                None => add(Zero::Somewhere(expr)),
+            }
+        }
     }
 }
 
@@ -68,7 +70,7 @@ fn affine(program: &Program, normaliser: &mut Normaliser, expr: ExprId) -> Optio
     let affine = normaliser.affine(&program.pool, expr)?;
     let terms = affine.terms.iter().map(|(term, factor)| match term {
         Term::Input(input) => Some((*input, quotient(factor))),
-        _ => None,
+        Term::Constant(_) | Term::Unary(..) | Term::Binary(..) | Term::Ternary(..) => None,
     });
     Some((terms.collect::<Option<_>>()?, quotient(&affine.constant)))
 }

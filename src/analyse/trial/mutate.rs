@@ -226,7 +226,7 @@ impl Vocabulary {
                 Domain::LevelsOf(of) => {
                     levels.iter().find(|(name, _)| *name == of.value).map_or_else(Vec::new, |(_, list)| list.clone())
                 }
-                _ => continue,
+                Domain::Bool | Domain::Int(..) | Domain::Range(..) => continue,
             };
             levels.push((input.name.value.clone(), known));
         }
@@ -236,10 +236,7 @@ impl Vocabulary {
 
     /// The other levels that can stand where `level` of `of` does.
     fn others(&self, of: &Expr, level: &str) -> Vec<String> {
-        let named = match &of.kind {
-            ExprKind::Name(name) => self.levels.iter().find(|(input, _)| input == name),
-            _ => None,
-        };
+        let named = of.name().and_then(|name| self.levels.iter().find(|(input, _)| input == name));
         let has = |(_, list): &&(String, Vec<String>)| list.iter().any(|known| known == level);
         let found = named.filter(|set| has(set)).or_else(|| self.levels.iter().find(has));
         found.map_or_else(Vec::new, |(_, list)| list.iter().filter(|other| *other != level).cloned().collect())
@@ -265,10 +262,9 @@ fn each(expr: &mut Expr, condition: bool, kind: Mistake, vocabulary: &Vocabulary
         (Mistake::Level, ExprKind::In(of, levels)) => {
             levels.iter().any(|level| !vocabulary.others(of, &level.value).is_empty())
         }
-        (Mistake::Level, ExprKind::Binary(BinaryOp::Equal | BinaryOp::NotEqual, of, level)) => match &level.kind {
-            ExprKind::Name(level) => !vocabulary.others(of, level).is_empty(),
-            _ => false,
-        },
+        (Mistake::Level, ExprKind::Binary(BinaryOp::Equal | BinaryOp::NotEqual, of, level)) => {
+            level.name().is_some_and(|level| !vocabulary.others(of, level).is_empty())
+        }
         (Mistake::Negation, _) => condition,
         (Mistake::Sign, ExprKind::Binary(BinaryOp::Add | BinaryOp::Subtract, ..)) => !condition,
         (Mistake::Input, ExprKind::Name(name)) => vocabulary.numbers.len() > 1 && vocabulary.numbers.contains(name),

@@ -279,7 +279,7 @@ fn ternary(op: TernaryOp, a: Interval, b: Interval, c: Interval) -> (Interval, O
     if a == ANY || b == ANY || c == ANY {
         return match op {
             TernaryOp::Clamp if b != ANY && c != ANY => ((b.0.min(c.0), c.1), None),
-            _ => (ANY, None),
+            TernaryOp::Clamp | TernaryOp::Fma | TernaryOp::Mix | TernaryOp::Smoothstep => (ANY, None),
         };
     }
     match op {

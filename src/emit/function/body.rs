@@ -79,7 +79,7 @@ impl<'a, 'p> Body<'a, 'p> {
             let level = format!("{shifted} & {}", self.dialect.uint(field.mask()));
             let (ty, value) = match levels.kind {
                 LevelKind::Bool => (Type::Bool, format!("({level}) != {}", self.dialect.uint(0))),
-                _ => (Type::Uint, level),
+                LevelKind::Named | LevelKind::Int => (Type::Uint, level),
             };
             self.text.line(self.dialect.local(&ty, &input.ident, &value, self.prefix));
         }
@@ -199,7 +199,7 @@ impl<'a, 'p> Body<'a, 'p> {
         let nothing = match ty {
             Type::Bool => "false".to_owned(),
             Type::Float => self.dialect.number(self.plan.program.inputs[input.index()].least()),
-            _ => self.dialect.uint(0),
+            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => self.dialect.uint(0),
         };
         self.text.line(self.dialect.variable(&ty, &ident, &nothing, self.prefix));
         if self.plan.pool.truth(condition) == Some(false) {

@@ -148,7 +148,9 @@ impl Body<'_, '_> {
                 self.dialect.select(bare(&condition), &self.integer(a, locals), &self.integer(b, locals))
             }
             Node::Const(number) => self.dialect.uint(number.get() as u32),
-            _ => self.dialect.uint(0),
+            Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+                self.dialect.uint(0)
+            }
         }
     }
 
@@ -173,7 +175,9 @@ impl Body<'_, '_> {
                     let count = self.plan.program.levels(*input).map_or(0, |known| known.count());
                     self.level(*input, LevelSet(LevelSet::all(count).0 & !levels.0))
                 }
-                _ => format!("!({})", bare(&self.condition(*a, locals))),
+                Cond::Const(_) | Cond::Compare(..) | Cond::Not(_) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => {
+                    format!("!({})", bare(&self.condition(*a, locals)))
+                }
             },
             Cond::And(parts) => joined(parts, " && "),
             Cond::Or(parts) => joined(parts, " || "),

@@ -188,19 +188,20 @@ impl Body<'_, '_> {
                     [a, b].into_iter().chain(if large { compared(pool, c) } else { Vec::new() }).collect()
                 }
             },
-            node => children(node),
+            node @ (Node::Const(_)
+            | Node::Input(_)
+            | Node::Result
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..)) => children(node),
         }
     }
 
     /// Whether an expression is a selection that becomes a conditional statement.
     fn is_choice(&self, expr: ExprId, locals: &Locals) -> bool {
         let pool = &self.plan.pool;
-        match pool.node(expr) {
-            Node::Select(c, a, b) => {
-                !locals.decided.contains_key(&c) && [a, b].iter().any(|side| !self.is_plain(*side))
-            }
-            _ => false,
-        }
+        let Node::Select(c, a, b) = pool.node(expr) else { return false };
+        !locals.decided.contains_key(&c) && [a, b].iter().any(|side| !self.is_plain(*side))
     }
 
     /// Whether an expression is small and cannot fail.

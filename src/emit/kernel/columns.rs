@@ -91,7 +91,7 @@ pub fn wgsl_library(proved: &Proved<'_>, library: &str) -> String {
         let zero = match ty {
             Type::Float => "0.0",
             Type::Bool => "false",
-            _ => "0u",
+            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => "0u",
         };
         let ty = Wgsl::Plain.ty(ty, &prefix);
         let _ =
@@ -123,7 +123,7 @@ pub fn glsl_library(proved: &Proved<'_>, library: &str, version: GlslVersion) ->
         let zero = match ty {
             Type::Float => "0.0",
             Type::Bool => "false",
-            _ => "0u",
+            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => "0u",
         };
         let ty = glsl.ty(ty, &prefix);
         let _ = writeln!(out, "{ty} {}_fetch_{ident}({} site) {{ return {zero}; }}", prefix.lower, prefix.site());
@@ -158,7 +158,7 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
         let value = match ty {
             Type::Float => format!("bitcast<f32>({word})"),
             Type::Bool => format!("{word} != 0u"),
-            _ => word,
+            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => word,
         };
         let _ = writeln!(
             out,
@@ -219,7 +219,7 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
         let value = match ty {
             Type::Float => format!("uintBitsToFloat({word})"),
             Type::Bool => format!("{word} != 0u"),
-            _ => word,
+            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => word,
         };
         let _ = writeln!(
             out,
@@ -280,7 +280,7 @@ fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
             .enumerate()
             .map(|(i, input)| match &input.domain {
                 Domain::Discrete(levels) if levels.kind == LevelKind::Bool => format!("{} != 0u", word(i)),
-                _ => format!("{to_float}({})", word(i)),
+                Domain::Discrete(_) | Domain::Continuous { .. } => format!("{to_float}({})", word(i)),
             })
             .collect(),
     }

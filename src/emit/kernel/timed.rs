@@ -41,7 +41,7 @@ pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
         let value = match ty {
             Type::Float => format!("bitcast<f32>({word})"),
             Type::Bool => format!("{word} != 0u"),
-            _ => word,
+            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => word,
         };
         let (site, ty) = (prefix.site(), Wgsl::Plain.ty(ty, &prefix));
         let _ = writeln!(out, "fn {}_fetch_{ident}(site: {site}) -> {ty} {{ return {value}; }}", prefix.lower);

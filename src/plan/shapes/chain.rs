@@ -230,9 +230,9 @@ mod tests {
     fn nesting_follows_the_published_advice() {
         let program = Program::read("tables/rsmss.ron").unwrap_or_else(|e| panic!("{e}"));
         let plan = Plan::new(&program, Shape::Nested).unwrap_or_else(|e| panic!("{e}"));
-        let condition = |step| match plan.step(step) {
-            crate::plan::Step::Test { condition, then, .. } => (*condition, *then),
-            other => panic!("{other:?}"),
+        let condition = |step| {
+            let crate::plan::Step::Test { condition, then, .. } = plan.step(step) else { panic!("no test") };
+            (*condition, *then)
         };
         let (first, then) = condition(plan.root());
         let (second, _) = condition(then);

@@ -185,7 +185,7 @@ impl Fitter {
             let constant = exact(form.constant)? * sign;
             let factors = form.terms.iter().map(|(term, factor)| match term {
                 Term::Input(input) => Some((*input, exact(*factor)? * sign)),
-                _ => None,
+                Term::Constant(_) | Term::Unary(..) | Term::Binary(..) | Term::Ternary(..) => None,
             });
             Some((constant, factors.collect::<Option<HashMap<_, _>>>()?))
         });
@@ -204,9 +204,9 @@ fn common_clamp(program: &Program) -> Option<(f64, f64)> {
     let pool = &program.pool;
     let lines = program.rows.iter().flat_map(|row| &row.lines).flat_map(|line| &line.values);
     let mut values = lines.chain(&program.default);
-    let bounds = |value: &ExprId| match pool.node(*value) {
-        Node::Ternary(TernaryOp::Clamp, _, lo, hi) => Some((pool.constant(lo)?, pool.constant(hi)?)),
-        _ => None,
+    let bounds = |value: &ExprId| {
+        let Node::Ternary(TernaryOp::Clamp, _, lo, hi) = pool.node(*value) else { return None };
+        Some((pool.constant(lo)?, pool.constant(hi)?))
     };
     let clamp = values.clone().find_map(bounds)?;
     let inside = |value: &ExprId| pool.constant(*value).is_some_and(|value| (clamp.0..=clamp.1).contains(&value));

@@ -221,7 +221,7 @@ impl Search<'_, '_> {
         match self.pool.cond(condition) {
             Cond::Level(input, levels) => Some((*input, *levels)),
             Cond::Not(inner) => self.level(*inner).map(|(input, levels)| (input, LevelSet(!levels.0))),
-            _ => None,
+            Cond::Const(_) | Cond::Compare(..) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => None,
         }
     }
 

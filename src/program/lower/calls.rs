@@ -59,12 +59,8 @@ impl Lowering<'_> {
                 arity(1)?;
                 let a = self.term(&arguments[0], env, Expected::Anything)?;
                 // What claims an accuracy cannot rely on a sine that may be off by 2^-11.
-                let op = match op {
-                    UnaryOp::Sin if self.portable => UnaryOp::PortableSin,
-                    UnaryOp::Cos if self.portable => UnaryOp::PortableCos,
-                    op => op,
-                };
-                self.map1(op, a, span)
+                let portable = op.row().portable.filter(|_| self.portable);
+                self.map1(portable.unwrap_or(op), a, span)
             }
             Some(Operator::Binary(op)) => {
                 arity(2)?;
@@ -92,7 +88,7 @@ impl Lowering<'_> {
                 let parts = parts.into_iter().map(|(name, a)| Ok((name, self.unary(op, a, span)?)));
                 Ok(Term::Record(parts.collect::<Result<_>>()?))
             }
-            other => Err(self.no_number(&other, span)),
+            other @ (Term::Bool(_) | Term::Level(..) | Term::List(_)) => Err(self.no_number(&other, span)),
         }
     }
 
@@ -130,7 +126,7 @@ impl Lowering<'_> {
             let values = |term: Term| match term {
                 Term::Record(parts) => parts.into_iter().map(|(_, part)| part).collect(),
                 Term::Number(number) => vec![number; names.len()],
-                _ => Vec::new(),
+                Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) => Vec::new(),
             };
             let pairs = values(a).into_iter().zip(values(b));
             let parts: Vec<ExprId> =
@@ -159,7 +155,7 @@ impl Lowering<'_> {
             let bounds = match op {
                 TernaryOp::Clamp => (self.pool.constant(b), self.pool.constant(c)),
                 TernaryOp::Smoothstep => (self.pool.constant(a), self.pool.constant(b)),
-                _ => (None, None),
+                TernaryOp::Fma | TernaryOp::Mix => (None, None),
             };
             if let (Some(lo), Some(hi)) = bounds
                 && (lo > hi || (lo == hi && op == TernaryOp::Smoothstep))
@@ -196,7 +192,7 @@ impl Lowering<'_> {
                     Term::Level(..) | Term::Bool(_) => {
                         error.help("`f32(...)` gives the number of a level or condition")
                     }
-                    _ => error,
+                    Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => error,
                 })
             }
             (a, _) => Err(self.no_number(&a, span)),
@@ -242,7 +238,7 @@ impl Lowering<'_> {
                 let (one, zero) = (self.pool.number(1.0), self.pool.number(0.0));
                 Ok(Term::Number(self.pool.select(condition, one, zero)))
             }
-            other => {
+            other @ (Term::Vector(_) | Term::List(_) | Term::Record(_)) => {
                 Err(type_error(argument.span, &self.describe(&other), "expected a level, a condition or a number"))
             }
         }
@@ -277,7 +273,9 @@ impl Lowering<'_> {
             terms.push(match self.term(argument, env, Expected::Anything)? {
                 Term::Number(number) => vec![number],
                 Term::Vector(parts) => parts,
-                other => return Err(self.no_number(&other, argument.span)),
+                other @ (Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
+                    return Err(self.no_number(&other, argument.span));
+                }
             });
         }
         if let Some(size) = size {

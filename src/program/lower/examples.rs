@@ -6,7 +6,7 @@ use crate::diag::{Diagnostic, codes};
 use crate::program::Example;
 use crate::program::domain::{Input, Value};
 use crate::table;
-use crate::table::expr::{Expr, ExprKind, UnaryOp};
+use crate::table::expr::{Expr, ExprKind};
 
 impl Lowering<'_> {
     pub(super) fn example(&mut self, row: usize, example: &table::Example) -> Result<Example> {
@@ -49,15 +49,7 @@ impl Lowering<'_> {
 
 /// A constant value of an input: a level by name or code, or a number.
 pub(super) fn literal(input: &Input, expr: &Expr) -> Result<Value> {
-    let number = |expr: &Expr| match &expr.kind {
-        ExprKind::Number(n) => Some(*n),
-        ExprKind::Unary(UnaryOp::Negate, inner) => match inner.kind {
-            ExprKind::Number(n) => Some(-n),
-            _ => None,
-        },
-        _ => None,
-    };
-    let word = match (&expr.kind, number(expr)) {
+    let word = match (&expr.kind, expr.literal()) {
         (_, Some(n)) => format!("{n}"),
         (ExprKind::Name(name), None) => name.clone(),
         _ => {

@@ -353,27 +353,22 @@ impl<'t> Lowering<'t> {
                 .help("`poly(x, [c0, c1, c2])` is c0 + x (c1 + x c2)"));
         };
         let x = self.term(x, env, Expected::Anything)?;
-        let coefficients: Vec<ExprId> = match &coefficients.kind {
+        let coefficients: Vec<ExprId> = if let ExprKind::List(items) = &coefficients.kind {
             // Coefficients are constants as written, also where the function is called with constants.
-            ExprKind::List(items) => {
-                let calling = std::mem::take(&mut self.calling);
-                let lowered = items.iter().map(|item| self.numeric(item, env)).collect();
-                self.calling = calling;
-                lowered
+            let calling = std::mem::take(&mut self.calling);
+            let lowered: Result<_> = items.iter().map(|item| self.numeric(item, env)).collect();
+            self.calling = calling;
+            lowered?
+        } else if let Some(name) = coefficients.name() {
+            let list = self.constant_list(&Spanned::new(coefficients.span, name.to_owned()), env)?;
+            if list.iter().any(|item| item.len() > 1) {
+                return Err(type_error(coefficients.span, "a list of several numbers each", "expected coefficients"));
             }
-            ExprKind::Name(name) => {
-                let list = self.constant_list(&Spanned::new(coefficients.span, name.clone()), env)?;
-                if list.iter().any(|item| item.len() > 1) {
-                    return Err(type_error(
-                        coefficients.span,
-                        "a list of several numbers each",
-                        "expected coefficients",
-                    ));
-                }
-                Ok(list.iter().flatten().map(|number| self.pool.number(*number)).collect())
-            }
-            _ => Err(type_error(coefficients.span, "something else", "expected a list of coefficients, [c0, c1]")),
-        }?;
+            list.iter().flatten().map(|number| self.pool.number(*number)).collect()
+        } else {
+            let expected = "expected a list of coefficients, [c0, c1]";
+            return Err(type_error(coefficients.span, "something else", expected));
+        };
         let terms = coefficients.len();
         if terms > MAX_TERMS {
             let message = format!("a polynomial of {terms} terms");

@@ -151,7 +151,9 @@ impl<'t> Lowering<'t> {
     pub(super) fn apply_result(&mut self, map: &Expr, value: Term, env: &Env) -> Result<Term> {
         match value {
             Term::Number(_) => Ok(Term::Number(self.numeric(map, &env.with_local(&value_name(map), value))?)),
-            other => Err(type_error(map.span, &self.describe(&other), "only a single number can be mapped")),
+            other @ (Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
+                Err(type_error(map.span, &self.describe(&other), "only a single number can be mapped"))
+            }
         }
     }
 

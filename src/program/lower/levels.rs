@@ -10,7 +10,7 @@ use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::InputId;
 use crate::program::pool::{Comparison, CondId, ExprId, LevelSet};
-use crate::table::expr::{self as ast, Expr, ExprKind};
+use crate::table::expr::{Expr, ExprKind};
 use crate::text::closest::nearest;
 
 /// A level that depends on inputs.
@@ -34,7 +34,9 @@ impl Lowering<'_> {
         let mut left = self.term(known, env, Expected::Anything)?;
         let right = match &left {
             Term::Level(set, _) => self.level_operand(*set, other, env)?,
-            _ => self.term(other, env, Expected::Anything)?,
+            Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
+                self.term(other, env, Expected::Anything)?
+            }
         };
         if let (Term::Number(_), Term::Level(set, _)) = (&left, &right) {
             left = self.level_operand(*set, known, env)?;
@@ -107,18 +109,21 @@ impl Lowering<'_> {
 
     /// Whether an expression consists of names that mean nothing by themselves, as those of levels do.
     fn is_bare(&self, expr: &Expr, env: &Env) -> bool {
-        match &expr.kind {
-            ExprKind::Name(name) => {
-                let base = name.rsplit_once('.').map_or(name.as_str(), |(base, _)| base);
-                !(matches!(name.as_str(), "true" | "false") || self.is_defined(name, env) || self.is_defined(base, env))
-            }
-            ExprKind::If(_, a, b) => self.is_bare(a, env) && self.is_bare(b, env),
-            ExprKind::Call(function, arguments) => match arguments.as_slice() {
-                [a, b, _] if function.value == "select" => self.is_bare(a, env) && self.is_bare(b, env),
-                _ => false,
-            },
-            _ => false,
+        if let Some(name) = expr.name() {
+            let base = name.rsplit_once('.').map_or(name, |(base, _)| base);
+            return !(matches!(name, "true" | "false") || self.is_defined(name, env) || self.is_defined(base, env));
         }
+        let sides = if let ExprKind::If(_, a, b) = &expr.kind {
+            Some((a.as_ref(), b.as_ref()))
+        } else if let ExprKind::Call(function, arguments) = &expr.kind
+            && function.value == "select"
+            && let [a, b, _] = arguments.as_slice()
+        {
+            Some((a, b))
+        } else {
+            None
+        };
+        sides.is_some_and(|(a, b)| self.is_bare(a, env) && self.is_bare(b, env))
     }
 
     /// Says how inputs come to have the same levels, if two sets look alike.
@@ -141,16 +146,16 @@ impl Lowering<'_> {
 
     /// A level written as a name that means nothing else, or as its code.
     pub(super) fn literal_level(&mut self, set: SetId, expr: &Expr, env: &Env) -> Result<Option<u8>> {
-        let word = match &expr.kind {
-            ExprKind::Name(name) if self.sets[set.0].names.contains(name) => name.clone(),
-            ExprKind::Name(name) if self.is_defined(name, env) => return Ok(None),
-            ExprKind::Name(name) => name.clone(),
-            ExprKind::Number(number) => format!("{number}"),
-            ExprKind::Unary(ast::UnaryOp::Negate, inner) => match inner.kind {
-                ExprKind::Number(number) => format!("{}", -number),
-                _ => return Ok(None),
-            },
-            _ => return Ok(None),
+        let word = match (expr.name(), expr.literal()) {
+            (Some(name), _) => {
+                let is_level = self.sets[set.0].names.iter().any(|level| level == name);
+                if !is_level && self.is_defined(name, env) {
+                    return Ok(None);
+                }
+                name.to_owned()
+            }
+            (None, Some(number)) => format!("{number}"),
+            (None, None) => return Ok(None),
         };
         match self.sets[set.0].find(&word) {
             Some(level) => Ok(Some(level)),
@@ -177,7 +182,9 @@ impl Lowering<'_> {
                 let term = LevelTerm::If(condition, Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
                 (SetId::BOOL, Arc::new(term))
             }
-            other => return Err(type_error(value.span, &self.describe(&other), "only discrete inputs have levels")),
+            other @ (Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_)) => {
+                return Err(type_error(value.span, &self.describe(&other), "only discrete inputs have levels"));
+            }
         };
         let mut mask = 0;
         for word in levels {

@@ -188,11 +188,18 @@ impl<'t> Lowering<'t> {
                 }
                 match self.term(value, env, Expected::Level(set))? {
                     Term::Level(found, term) if found == set => Ok(Term::Level(set, term)),
-                    other => {
+                    other @ (Term::Number(_)
+                    | Term::Vector(_)
+                    | Term::Bool(_)
+                    | Term::Level(..)
+                    | Term::List(_)
+                    | Term::Record(_)) => {
                         let error = type_error(value.span, &self.describe(&other), "this input has other levels");
                         Err(match other {
                             Term::Level(found, _) => self.unlike(error, set, found),
-                            _ => error,
+                            Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
+                                error
+                            }
                         })
                     }
                 }

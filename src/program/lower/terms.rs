@@ -139,7 +139,9 @@ impl Lowering<'_> {
             ExprKind::Record(fields) => self.record(fields, span, env),
             ExprKind::List(items) => match expected {
                 Expected::List(set, max) => self.list(items, set, max, span, env),
-                _ => Err(type_error(span, "a list", "only a table with `output: List(...)` has lists as values")),
+                Expected::Anything | Expected::Level(_) => {
+                    Err(type_error(span, "a list", "only a table with `output: List(...)` has lists as values"))
+                }
             },
         }
     }
@@ -166,7 +168,9 @@ impl Lowering<'_> {
     pub(super) fn condition(&mut self, expr: &Expr, env: &Env) -> Result<CondId> {
         match self.term(expr, env, Expected::Anything)? {
             Term::Bool(condition) => Ok(condition),
-            other => Err(type_error(expr.span, &self.describe(&other), "expected a condition")),
+            other @ (Term::Number(_) | Term::Vector(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
+                Err(type_error(expr.span, &self.describe(&other), "expected a condition"))
+            }
         }
     }
 
@@ -174,7 +178,9 @@ impl Lowering<'_> {
     pub(super) fn numeric(&mut self, expr: &Expr, env: &Env) -> Result<ExprId> {
         match self.term(expr, env, Expected::Anything)? {
             Term::Number(number) => Ok(number),
-            other => Err(self.no_number(&other, expr.span)),
+            other @ (Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
+                Err(self.no_number(&other, expr.span))
+            }
         }
     }
 
@@ -182,7 +188,7 @@ impl Lowering<'_> {
         let error = type_error(span, &self.describe(term), "expected a number");
         match term {
             Term::Level(..) | Term::Bool(_) => error.help("`f32(...)` gives the number that stands for it"),
-            _ => error,
+            Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => error,
         }
     }
 
@@ -212,12 +218,9 @@ impl Lowering<'_> {
             }
             Op::Less | Op::LessEqual | Op::Greater | Op::GreaterEqual => {
                 let (x, y) = (self.numeric(a, env)?, self.numeric(b, env)?);
-                let (comparison, x, y) = match op {
-                    Op::Less => (Comparison::Less, x, y),
-                    Op::LessEqual => (Comparison::LessEqual, x, y),
-                    Op::Greater => (Comparison::Less, y, x),
-                    _ => (Comparison::LessEqual, y, x),
-                };
+                let strict = matches!(op, Op::Less | Op::Greater);
+                let comparison = if strict { Comparison::Less } else { Comparison::LessEqual };
+                let (x, y) = if matches!(op, Op::Less | Op::LessEqual) { (x, y) } else { (y, x) };
                 Ok(Term::Bool(match self.calling.is_empty() {
                     true => self.pool.compare(comparison, x, y),
                     false => self.pool.recompare(comparison, x, y),
@@ -244,7 +247,7 @@ impl Lowering<'_> {
         match term {
             Term::Number(e) => self.pool.constant(*e) == Some(0.0),
             Term::Vector(parts) => parts.iter().any(|e| self.pool.constant(*e) == Some(0.0)),
-            _ => false,
+            Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_) => false,
         }
     }
 
@@ -288,7 +291,14 @@ impl Lowering<'_> {
                 Term::Level(found, term) if found == set => {
                     parts.push(self.level_number(set, &term, |_, level| f64::from(level)));
                 }
-                other => return Err(type_error(item.span, &self.describe(&other), "expected a level of the output")),
+                other @ (Term::Number(_)
+                | Term::Vector(_)
+                | Term::Bool(_)
+                | Term::Level(..)
+                | Term::List(_)
+                | Term::Record(_)) => {
+                    return Err(type_error(item.span, &self.describe(&other), "expected a level of the output"));
+                }
             }
         }
         let zero = self.pool.number(0.0);
