@@ -3,6 +3,8 @@
 //!
 //! Pipelines are made from this, so that a layout is written once, in the shader.
 
+#![allow(clippy::wildcard_enum_match_arm, reason = "types are those of naga, of which shaders here use few")]
+
 use std::collections::HashSet;
 
 use naga::{AddressSpace, Binding, Expression, Handle, ImageClass, ScalarKind, StorageAccess, TypeInner};
