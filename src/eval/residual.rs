@@ -389,12 +389,7 @@ impl<'p, T: Real> Residual<'p, T> {
         if seen.len() > self.few {
             return false;
         }
-        match self.program.pool.node(expr) {
-            Node::Const(_) | Node::Input(_) | Node::Result => true,
-            Node::Unary(_, a) => self.adds_few(a, seen),
-            Node::Binary(_, a, b) | Node::Select(_, a, b) => self.adds_few(a, seen) && self.adds_few(b, seen),
-            Node::Ternary(_, a, b, c) => [a, b, c].into_iter().all(|part| self.adds_few(part, seen)),
-        }
+        self.program.pool.node(expr).children().all(|part| self.adds_few(part, seen))
     }
 
     /// A condition as a term that is 1 or 0. All of it is computed, so it stops at what is yet to be fetched.

@@ -76,9 +76,7 @@ impl<T: Real> Steps<'_, '_, T> {
             Node::Const(number) => return Ok(number.get().to_string()),
             Node::Input(input) => return Ok(self.witness.program.inputs[input.index()].name.clone()),
             Node::Result => return Ok("value".to_owned()),
-            Node::Unary(_, a) => vec![a],
-            Node::Binary(_, a, b) => vec![a, b],
-            Node::Ternary(_, a, b, c) => vec![a, b, c],
+            Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => node.children().collect(),
             Node::Select(condition, then, other) => {
                 let holds = self.witness.interpreter.holds(condition)?;
                 let chosen = if holds { then } else { other };

@@ -14,7 +14,7 @@ use super::knowledge::Knowledge;
 use super::setting::Setting;
 use super::{Coefficients, Leaf, Plan, Step, StepId};
 use crate::program::claims::Claims;
-use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
+use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Pool, Program};
 
 /// Most steps of a plan.
 const MAX_STEPS: usize = 200_000;
@@ -326,13 +326,8 @@ impl<'p> Builder<'p> {
         if self.missing(self.pool.expr_facts(expr).inputs, known).is_empty() {
             return None;
         }
-        match self.pool.node(expr) {
-            Node::Const(_) | Node::Input(_) | Node::Result => None,
-            Node::Unary(_, a) => self.lazy_choice(a, known),
-            Node::Binary(_, a, b) => self.lazy_choice(a, known).or_else(|| self.lazy_choice(b, known)),
-            Node::Ternary(_, a, b, c) => [a, b, c].into_iter().find_map(|e| self.lazy_choice(e, known)),
-            Node::Select(condition, ..) => Some(condition),
-        }
+        let node = self.pool.node(expr);
+        node.condition().or_else(|| node.children().find_map(|part| self.lazy_choice(part, known)))
     }
 
     /// Tests a condition, fetching what it needs in the order it needs it.

@@ -317,30 +317,25 @@ impl Comparisons {
         if !self.seen_conds.insert(cond) {
             return;
         }
-        match program.pool.cond(cond) {
-            Cond::Const(_) | Cond::Level(..) => {}
-            Cond::Compare(_, a, b) => self.add(program, *a, *b),
-            Cond::Not(a) => self.in_cond(program, *a),
-            Cond::And(parts) | Cond::Or(parts) => parts.iter().for_each(|part| self.in_cond(program, *part)),
-            Cond::If(c, a, b) => [c, a, b].into_iter().for_each(|part| self.in_cond(program, *part)),
+        let cond = program.pool.cond(cond);
+        if let Cond::Compare(_, a, b) = cond {
+            self.add(program, *a, *b);
         }
+        cond.children().for_each(|part| self.in_cond(program, part));
     }
 
     fn in_expr(&mut self, program: &Program, expr: ExprId) {
         if !self.seen_exprs.insert(expr) {
             return;
         }
-        match program.pool.node(expr) {
-            Node::Const(_) | Node::Input(_) | Node::Result => {}
-            Node::Unary(_, a) => self.in_expr(program, a),
-            Node::Binary(BinaryOp::Step, a, b) => self.add(program, a, b),
-            Node::Binary(_, a, b) => [a, b].into_iter().for_each(|e| self.in_expr(program, e)),
-            Node::Ternary(_, a, b, c) => [a, b, c].into_iter().for_each(|e| self.in_expr(program, e)),
-            Node::Select(c, a, b) => {
-                self.in_cond(program, c);
-                [a, b].into_iter().for_each(|e| self.in_expr(program, e));
-            }
+        let node = program.pool.node(expr);
+        if let Node::Binary(BinaryOp::Step, a, b) = node {
+            return self.add(program, a, b);
         }
+        if let Some(condition) = node.condition() {
+            self.in_cond(program, condition);
+        }
+        node.children().for_each(|part| self.in_expr(program, part));
     }
 
     fn add(&mut self, program: &Program, a: ExprId, b: ExprId) {

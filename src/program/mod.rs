@@ -30,6 +30,7 @@ mod reachable;
 pub(crate) mod region;
 pub(crate) mod symbolic;
 pub(crate) mod turn;
+mod visit;
 
 use std::sync::Arc;
 

@@ -229,13 +229,8 @@ impl Pool {
 
     /// Whether a condition compares numbers.
     pub fn compares(&self, id: CondId) -> bool {
-        match self.cond(id) {
-            Cond::Const(_) | Cond::Level(..) => false,
-            Cond::Compare(..) => true,
-            Cond::Not(a) => self.compares(*a),
-            Cond::And(parts) | Cond::Or(parts) => parts.iter().any(|part| self.compares(*part)),
-            Cond::If(c, a, b) => [c, a, b].into_iter().any(|part| self.compares(*part)),
-        }
+        let cond = self.cond(id);
+        matches!(cond, Cond::Compare(..)) || cond.children().any(|part| self.compares(part))
     }
 
     /// The name a table gives to an expression, if any.
@@ -291,16 +286,12 @@ impl Pool {
         if let Some(id) = self.expr_index.get(&node) {
             return *id;
         }
-        let facts = match node {
-            Node::Const(_) | Node::Result => Facts::leaf(InputSet::default()),
-            Node::Input(input) => Facts::leaf(InputSet::one(input)),
-            Node::Unary(_, a) => Facts::join([self.expr_facts(a)]),
-            Node::Binary(_, a, b) => Facts::join([self.expr_facts(a), self.expr_facts(b)]),
-            Node::Ternary(_, a, b, c) => Facts::join([self.expr_facts(a), self.expr_facts(b), self.expr_facts(c)]),
-            Node::Select(c, a, b) => {
-                let facts = Facts::join([self.cond_facts(c), self.expr_facts(a), self.expr_facts(b)]);
-                Facts { selects: true, ..facts }
-            }
+        let facts = if let Node::Input(input) = node {
+            Facts::leaf(InputSet::one(input))
+        } else {
+            let condition = node.condition().map(|condition| self.cond_facts(condition));
+            let facts = Facts::join(node.children().map(|part| self.expr_facts(part)).chain(condition));
+            Facts { selects: facts.selects || condition.is_some(), ..facts }
         };
         let id = ExprId(self.exprs.len() as u32);
         self.exprs.push((node, facts));
@@ -312,13 +303,11 @@ impl Pool {
         if let Some(id) = self.cond_index.get(&cond) {
             return *id;
         }
-        let facts = match &cond {
-            Cond::Const(_) => Facts::leaf(InputSet::default()),
-            Cond::Level(input, _) => Facts::leaf(InputSet::one(*input)),
-            Cond::Compare(_, a, b) => Facts::join([self.expr_facts(*a), self.expr_facts(*b)]),
-            Cond::Not(a) => Facts::join([self.cond_facts(*a)]),
-            Cond::And(list) | Cond::Or(list) => Facts::join(list.iter().map(|c| self.cond_facts(*c))),
-            Cond::If(c, a, b) => Facts::join([*c, *a, *b].map(|c| self.cond_facts(c))),
+        let facts = if let Cond::Level(input, _) = &cond {
+            Facts::leaf(InputSet::one(*input))
+        } else {
+            let compared = cond.compared().map(|part| self.expr_facts(part));
+            Facts::join(compared.chain(cond.children().map(|part| self.cond_facts(part))))
         };
         let id = CondId(self.conds.len() as u32);
         self.conds.push((cond.clone(), facts));

@@ -197,12 +197,12 @@ fn dead_choices(study: &mut Study<'_>, place: (usize, usize), value: ExprId, wit
         return;
     }
     match study.space.pool.node(value) {
-        Node::Const(_) | Node::Input(_) | Node::Result => {}
-        Node::Unary(_, a) => dead_choices(study, place, a, within, found),
-        Node::Binary(_, a, b) => [a, b].into_iter().for_each(|part| dead_choices(study, place, part, within, found)),
-        Node::Ternary(_, a, b, c) => {
-            [a, b, c].into_iter().for_each(|part| dead_choices(study, place, part, within, found));
-        }
+        node @ (Node::Const(_)
+        | Node::Input(_)
+        | Node::Result
+        | Node::Unary(..)
+        | Node::Binary(..)
+        | Node::Ternary(..)) => node.children().for_each(|part| dead_choices(study, place, part, within, found)),
         Node::Select(condition, a, b) => {
             let holds = study.space.condition(condition, View::PLAIN);
             let (then, other) = (study.space.sets.and(within, holds), study.space.sets.minus(within, holds));

@@ -273,28 +273,18 @@ fn conditions_in(program: &Program, condition: CondId, found: &mut Vec<CondId>) 
         return;
     }
     found.push(condition);
-    match program.pool.cond(condition) {
-        Cond::Const(_) | Cond::Level(..) => {}
-        Cond::Compare(_, a, b) => [a, b].into_iter().for_each(|part| choices_in(program, *part, found)),
-        Cond::Not(a) => conditions_in(program, *a, found),
-        Cond::And(list) | Cond::Or(list) => list.iter().for_each(|part| conditions_in(program, *part, found)),
-        Cond::If(c, a, b) => [c, a, b].into_iter().for_each(|part| conditions_in(program, *part, found)),
-    }
+    let cond = program.pool.cond(condition);
+    cond.compared().for_each(|part| choices_in(program, part, found));
+    cond.children().for_each(|part| conditions_in(program, part, found));
 }
 
 fn choices_in(program: &Program, value: ExprId, found: &mut Vec<CondId>) {
     if !program.pool.expr_facts(value).selects {
         return;
     }
-    let mut all = |parts: &[ExprId]| parts.iter().for_each(|part| choices_in(program, *part, found));
-    match program.pool.node(value) {
-        Node::Const(_) | Node::Input(_) | Node::Result => {}
-        Node::Unary(_, a) => all(&[a]),
-        Node::Binary(_, a, b) => all(&[a, b]),
-        Node::Ternary(_, a, b, c) => all(&[a, b, c]),
-        Node::Select(condition, a, b) => {
-            all(&[a, b]);
-            conditions_in(program, condition, found);
-        }
+    let node = program.pool.node(value);
+    node.children().for_each(|part| choices_in(program, part, found));
+    if let Some(condition) = node.condition() {
+        conditions_in(program, condition, found);
     }
 }

@@ -145,33 +145,23 @@ struct Walk {
 
 impl Walk {
     fn cond(&mut self, program: &Program, condition: CondId) {
-        use crate::program::Cond;
         if !self.conditions.insert(condition) {
             return;
         }
-        match program.pool.cond(condition) {
-            Cond::Const(_) | Cond::Level(..) => {}
-            Cond::Compare(_, a, b) => [a, b].into_iter().for_each(|e| self.expr(program, *e)),
-            Cond::Not(a) => self.cond(program, *a),
-            Cond::And(parts) | Cond::Or(parts) => parts.iter().for_each(|c| self.cond(program, *c)),
-            Cond::If(a, b, c) => [a, b, c].into_iter().for_each(|c| self.cond(program, *c)),
-        }
+        let cond = program.pool.cond(condition);
+        cond.compared().for_each(|part| self.expr(program, part));
+        cond.children().for_each(|part| self.cond(program, part));
     }
 
     fn expr(&mut self, program: &Program, expr: ExprId) {
         if !self.seen.insert(expr) {
             return;
         }
-        match program.pool.node(expr) {
-            Node::Const(_) | Node::Input(_) | Node::Result => {}
-            Node::Unary(_, a) => self.expr(program, a),
-            Node::Binary(_, a, b) => [a, b].into_iter().for_each(|e| self.expr(program, e)),
-            Node::Ternary(_, a, b, c) => [a, b, c].into_iter().for_each(|e| self.expr(program, e)),
-            Node::Select(condition, a, b) => {
-                self.cond(program, condition);
-                [a, b].into_iter().for_each(|e| self.expr(program, e));
-            }
+        let node = program.pool.node(expr);
+        if let Some(condition) = node.condition() {
+            self.cond(program, condition);
         }
+        node.children().for_each(|part| self.expr(program, part));
         self.order.push(expr);
     }
 }

@@ -73,31 +73,22 @@ impl Body<'_, '_> {
                 if !seen_conds.insert(condition) {
                     continue;
                 }
-                match pool.cond(condition) {
-                    Cond::Const(_) | Cond::Level(..) => {}
-                    Cond::Compare(_, a, b) => {
-                        if pool.constant(*a).is_some() && pool.constant(*b).is_some() {
-                            found.push(*a);
-                        }
-                        exprs.extend([*a, *b]);
-                    }
-                    Cond::Not(a) => conditions.push(*a),
-                    Cond::And(parts) | Cond::Or(parts) => conditions.extend(parts),
-                    Cond::If(c, a, b) => conditions.extend([*c, *a, *b]),
+                let cond = pool.cond(condition);
+                if cond.compared().all(|part| pool.constant(part).is_some()) {
+                    found.extend(cond.compared().next());
                 }
+                exprs.extend(cond.compared());
+                conditions.extend(cond.children());
             } else if let Some(expr) = exprs.pop() {
                 if !seen_exprs.insert(expr) {
                     continue;
                 }
                 let node = pool.node(expr);
-                if let Node::Select(condition, ..) = node {
-                    conditions.push(condition);
-                }
-                let children = children(node);
+                conditions.extend(node.condition());
                 if !pool.folds(node) {
-                    found.extend(children.iter().copied().filter(|child| pool.constant(*child).is_some()));
+                    found.extend(node.children().filter(|child| pool.constant(*child).is_some()));
                 }
-                exprs.extend(children);
+                exprs.extend(node.children());
             } else {
                 break;
             }
@@ -207,14 +198,5 @@ impl Body<'_, '_> {
             format!("({})", parts.join(joint))
         };
         if inside.len() <= outside.len() { all(&inside, "==", " || ") } else { all(&outside, "!=", " && ") }
-    }
-}
-
-pub(in crate::emit) fn children(node: Node) -> Vec<ExprId> {
-    match node {
-        Node::Const(_) | Node::Input(_) | Node::Result => Vec::new(),
-        Node::Unary(_, a) => vec![a],
-        Node::Binary(_, a, b) | Node::Select(_, a, b) => vec![a, b],
-        Node::Ternary(_, a, b, c) => vec![a, b, c],
     }
 }

@@ -9,9 +9,9 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::body::Body;
-use super::terms::{Locals, children};
+use super::terms::Locals;
 use crate::emit::language::{Type, bare, call};
-use crate::program::{Cond, CondId, ExprId, Node, Pool, UnaryOp};
+use crate::program::{CondId, ExprId, Node, Pool, UnaryOp};
 
 /// Deepest nesting of a printed expression; what is deeper gets a local.
 /// Front ends recurse, and some give up at about seventy levels.
@@ -100,8 +100,7 @@ impl Body<'_, '_> {
             depths.insert(expr, 0);
             return;
         }
-        let operands = children(node);
-        let depth = 1 + operands.iter().filter_map(|c| depths.get(c)).max().copied().unwrap_or(0);
+        let depth = 1 + node.children().filter_map(|c| depths.get(&c)).max().copied().unwrap_or(0);
         depths.insert(expr, depth);
         let label = pool.label(expr).map(|label| label.replace('.', "_"));
         let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Result);
@@ -193,7 +192,7 @@ impl Body<'_, '_> {
             | Node::Result
             | Node::Unary(..)
             | Node::Binary(..)
-            | Node::Ternary(..)) => children(node),
+            | Node::Ternary(..)) => node.children().collect(),
         }
     }
 
@@ -211,7 +210,7 @@ impl Body<'_, '_> {
         pool.expr_facts(expr).size <= MAX_PLAIN
             && std::iter::from_fn(|| {
                 let expr = open.pop()?;
-                open.extend(children(pool.node(expr)));
+                open.extend(pool.node(expr).children());
                 Some(expr)
             })
             .all(|expr| cannot_fail(pool.node(expr)))
@@ -260,8 +259,8 @@ fn reach(pool: &Pool, expr: ExprId, locals: &Locals, seen: &mut BTreeSet<ExprId>
         return;
     }
     let node = pool.node(expr);
-    children(node).into_iter().for_each(|operand| reach(pool, operand, locals, seen));
-    if let Node::Select(condition, ..) = node {
+    node.children().for_each(|operand| reach(pool, operand, locals, seen));
+    if let Some(condition) = node.condition() {
         compared(pool, condition).into_iter().for_each(|operand| reach(pool, operand, locals, seen));
     }
 }
@@ -275,7 +274,7 @@ fn is_safe(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, bool>) -> bool
     let portable = matches!(node, Node::Unary(UnaryOp::PortableSin | UnaryOp::PortableCos, _));
     let safe = !matches!(node, Node::Select(..))
         && (portable || cannot_fail(node))
-        && children(node).into_iter().all(|operand| is_safe(pool, operand, known));
+        && node.children().all(|operand| is_safe(pool, operand, known));
     known.insert(expr, safe);
     safe
 }
@@ -291,11 +290,6 @@ fn cannot_fail(node: Node) -> bool {
 
 /// The numbers that a condition compares.
 fn compared(pool: &Pool, condition: CondId) -> Vec<ExprId> {
-    match pool.cond(condition) {
-        Cond::Const(_) | Cond::Level(..) => Vec::new(),
-        Cond::Compare(_, a, b) => vec![*a, *b],
-        Cond::Not(a) => compared(pool, *a),
-        Cond::And(parts) | Cond::Or(parts) => parts.iter().flat_map(|part| compared(pool, *part)).collect(),
-        Cond::If(c, a, b) => [c, a, b].into_iter().flat_map(|part| compared(pool, *part)).collect(),
-    }
+    let cond = pool.cond(condition);
+    cond.compared().chain(cond.children().flat_map(|part| compared(pool, part))).collect()
 }

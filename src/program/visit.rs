@@ -1,0 +1,43 @@
+//! The parts of expressions and conditions, for walks that only pass through them.
+//!
+//! What gives a term a meaning matches its variants; what looks for something
+//! inside of a term asks for its parts, and needs no change when a variant is added.
+
+use super::{Cond, CondId, ExprId, Node};
+
+impl Node {
+    /// The numbers that an expression is made of, from left to right; of a selection, its two sides.
+    pub fn children(self) -> impl Iterator<Item = ExprId> + Clone {
+        let parts = match self {
+            Node::Const(_) | Node::Input(_) | Node::Result => [None; 3],
+            Node::Unary(_, a) => [Some(a), None, None],
+            Node::Binary(_, a, b) | Node::Select(_, a, b) => [Some(a), Some(b), None],
+            Node::Ternary(_, a, b, c) => [Some(a), Some(b), Some(c)],
+        };
+        parts.into_iter().flatten()
+    }
+
+    /// The condition of a selection.
+    pub fn condition(self) -> Option<CondId> {
+        if let Node::Select(condition, ..) = self { Some(condition) } else { None }
+    }
+}
+
+impl Cond {
+    /// The conditions that a condition is made of, from left to right.
+    pub fn children(&self) -> impl Iterator<Item = CondId> + '_ {
+        let (few, list): ([Option<CondId>; 3], &[CondId]) = match self {
+            Cond::Const(_) | Cond::Level(..) | Cond::Compare(..) => ([None; 3], &[]),
+            Cond::Not(a) => ([Some(*a), None, None], &[]),
+            Cond::And(parts) | Cond::Or(parts) => ([None; 3], parts),
+            Cond::If(c, a, b) => ([Some(*c), Some(*a), Some(*b)], &[]),
+        };
+        few.into_iter().flatten().chain(list.iter().copied())
+    }
+
+    /// The numbers that a comparison compares.
+    pub fn compared(&self) -> impl Iterator<Item = ExprId> {
+        let parts = if let Cond::Compare(_, a, b) = self { [Some(*a), Some(*b)] } else { [None; 2] };
+        parts.into_iter().flatten()
+    }
+}
