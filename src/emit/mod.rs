@@ -67,18 +67,6 @@ pub fn emit_all(plans: &[Proved<'_>], target: Target, siblings: &[SiblingFile]) 
     target.write(plans, siblings)
 }
 
-/// Plans in a language that naga writes, from their validated WGSL.
-fn translated(plans: &[Proved<'_>], program: &Program, language: Translated) -> Result<Vec<u8>, Failure> {
-    let columns = plans.iter().map(|plan| kernel::columns::wgsl_columns(plan, kernel::columns::Entry::Key));
-    let module = wgsl_module(program, &columns.collect::<Vec<_>>().join("\n"))?;
-    let mut out = translate(program, &module, language)?;
-    if language != Translated::SpirV {
-        let headers: String = plans.iter().map(module::header).collect();
-        out.splice(0..0, headers.into_bytes());
-    }
-    Ok(out)
-}
-
 /// The WGSL module of a plan.
 pub fn wgsl(proved: &Proved<'_>) -> String {
     module::write(proved, &Wgsl::Plain)
