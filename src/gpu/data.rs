@@ -172,7 +172,10 @@ pub(crate) fn view(texture: &wgpu::Texture) -> wgpu::TextureView {
 pub(crate) fn laid_out<T: ShaderType + WriteInto>(label: &str, value: &T) -> Result<Vec<u8>, Failure> {
     let mut buffer = encase::StorageBuffer::new(Vec::new());
     buffer.write(value).map_err(|error| unwritable(label, &error))?;
-    Ok(buffer.into_inner())
+    let mut bytes = buffer.into_inner();
+    // Padding behind the last field is not written, and the shader counts it.
+    bytes.resize(value.size().get() as usize, 0);
+    Ok(bytes)
 }
 
 #[cfg(any(feature = "render", test))]

@@ -44,13 +44,13 @@ impl Whole {
 /// The technique that a table is for.
 ///
 /// # Errors
-/// When no technique evaluates the table in passes that take any plan.
+/// When no technique has a pass that evaluates the table.
 pub fn technique(program: &Program) -> Result<&'static dyn Technique, Failure> {
     let takes_plans = |technique: &&dyn Technique| technique.abilities().contains(&Ability::Plans);
     let tables = |technique: &dyn Technique| technique.tables().iter().map(|table| table.name);
     let mut found = technique::ALL.iter().copied().filter(takes_plans);
     found.find(|technique| tables(*technique).any(|name| name == program.name)).ok_or_else(|| {
-        let message = format!("no technique evaluates the table `{}` in passes that take any plan", program.name);
+        let message = format!("no technique has a pass that evaluates the table `{}`", program.name);
         let error = Diagnostic::error(codes::NOT_APPLICABLE, message);
         let known: Vec<&str> =
             technique::ALL.iter().copied().filter(takes_plans).flat_map(|technique| tables(technique)).collect();

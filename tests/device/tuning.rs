@@ -150,7 +150,7 @@ fn plans_that_do_not_suit_a_table_are_left_out() {
     // Nothing renders this table.
     let said = place.run("tune t.ron --profile p.ron --whole");
     assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
-    assert!(said.err.contains("no shadow pass evaluates the table `t`"), "{}", said.err);
+    assert!(said.err.contains("no technique has a pass that evaluates the table `t`"), "{}", said.err);
 }
 
 /// What is too large for a plan is said; the others are made.
@@ -269,7 +269,11 @@ fn plans_are_measured_in_whole_shaders() {
     let passes: Vec<_> =
         whole.iter().map(|line| (line["pass"].as_str().unwrap(), line["name"].as_str().unwrap())).collect();
     assert_eq!(passes, [("compute", "ladder"), ("compute", "switch"), ("fragment", "ladder"), ("fragment", "switch")]);
-    assert!(whole.iter().all(|line| line["frame"] == "text, 64x36, map 64" && line["ms"].as_f64().unwrap() > 0.0));
+    assert!(
+        whole
+            .iter()
+            .all(|line| line["frame"] == "text, 64x36, map 64, search limit 128" && line["ms"].as_f64().unwrap() > 0.0)
+    );
     assert!(place.read("tuning.html").contains("In whole shaders"));
 }
 

@@ -112,9 +112,10 @@ struct SurfaceRow {
 /// The start of a `Scene` of the skeleton.
 #[derive(ShaderType)]
 struct Limits {
+    // What follows in the skeleton's structure is aligned so.
+    #[shader(align(16))]
     border: f32,
     curvature: f32,
-    #[shader(size(8))]
     depth: u32,
 }
 

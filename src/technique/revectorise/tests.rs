@@ -16,7 +16,7 @@ fn bounds(variant: Variant) -> (f64, f64) {
         Variant::Hard => (1.0, 1.0),
         Variant::Pcf => (1.0, 1.3),
         // It adds shadow: lines where the staircase was, at its outer side.
-        Variant::Smsr => (1.1, 2.0),
+        Variant::Smsr => (1.2, 1.6),
         Variant::Rsmss => (0.8, 1.0),
         Variant::Rpcf => (1.0, 1.3),
         Variant::CaseFree => (1.0, 1.3),
