@@ -52,7 +52,7 @@ pub(super) struct Arguments {
 enum Executor<'a> {
     Interpreter,
     #[cfg(feature = "gpu")]
-    Gpu(Kernel<'a, 'a>),
+    Gpu(Box<Kernel<'a, 'a>>),
     /// Keeps the lifetime in builds without GPU support.
     #[cfg(not(feature = "gpu"))]
     #[expect(dead_code, reason = "is never made")]
@@ -72,7 +72,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let executor = match &machine {
         #[cfg(feature = "gpu")]
         technique::Executor::Gpu(gpu) => match &proved {
-            Some(proved) => Executor::Gpu(Kernel::new(gpu, proved, Entry::Key, Language::Wgsl)?),
+            Some(proved) => Executor::Gpu(Box::new(Kernel::new(gpu, proved, Entry::Key, Language::Wgsl)?)),
             None => Executor::Interpreter,
         },
         technique::Executor::Cpu => Executor::Interpreter,

@@ -39,7 +39,10 @@ pub struct Frame<'s> {
 
 /// Things that several techniques need, by type and key.
 #[derive(Default)]
-struct Shared(Mutex<Vec<(TypeId, String, Arc<dyn Any + Send + Sync>)>>);
+struct Shared(Mutex<Vec<(TypeId, String, Thing)>>);
+
+/// What techniques share: made once, by whichever needs it first.
+type Thing = Arc<dyn Any + Send + Sync>;
 
 impl<'s> Frame<'s> {
     /// A frame of a scene: sees its surfaces.

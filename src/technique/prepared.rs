@@ -83,6 +83,10 @@ pub enum Detail {
     Variants,
 }
 
+/// A run of a pass, measured.
+#[cfg(feature = "gpu")]
+type Run<'p> = dyn Fn(&Stopwatch<'_>) -> Result<Duration, Failure> + 'p;
+
 /// A pass on a device that can be run again and again.
 #[cfg(feature = "gpu")]
 pub struct Pass<'p> {
@@ -92,7 +96,7 @@ pub struct Pass<'p> {
     pub name: &'static str,
     /// What the pass costs, by counts that do not depend on the device; where they were asked for.
     pub costs: Option<Costs>,
-    run: Box<dyn Fn(&Stopwatch<'_>) -> Result<Duration, Failure> + 'p>,
+    run: Box<Run<'p>>,
 }
 
 #[cfg(feature = "gpu")]

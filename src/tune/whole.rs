@@ -52,8 +52,7 @@ pub fn technique(program: &Program) -> Result<&'static dyn Technique, Failure> {
     found.find(|technique| tables(*technique).any(|name| name == program.name)).ok_or_else(|| {
         let message = format!("no technique has a pass that evaluates the table `{}`", program.name);
         let error = Diagnostic::error(codes::NOT_APPLICABLE, message);
-        let known: Vec<&str> =
-            technique::ALL.iter().copied().filter(takes_plans).flat_map(|technique| tables(technique)).collect();
+        let known: Vec<&str> = technique::ALL.iter().copied().filter(takes_plans).flat_map(tables).collect();
         let help = format!("whole shaders are measured of the tables {}", technique::and(&known));
         Failure::new(program.source.clone(), error.help(help))
     })

@@ -174,13 +174,13 @@ impl Renderer {
     pub(crate) fn take_table(&mut self, path: &Path, view: &View) -> Result<String, String> {
         let (tables, name) = self.tables.with(path)?;
         let key = (view.technique, tables.suitable(view.technique, view.plan), view.cases);
-        if view.technique.table() == Some(name.as_str()) {
+        if view.technique.table().is_some_and(|table| table.name == name) {
             // Only now it is known whether it fits the search.
             let pipeline = self.light_pass(&tables, key)?;
-            self.light_passes.retain(|(technique, ..), _| technique.table() != Some(name.as_str()));
+            self.light_passes.retain(|(technique, ..), _| technique.table().is_none_or(|table| table.name != name));
             self.light_passes.insert(key, pipeline);
         }
-        self.light_passes.retain(|other, _| *other == key || other.0.table() != Some(name.as_str()));
+        self.light_passes.retain(|other, _| *other == key || other.0.table().is_none_or(|table| table.name != name));
         self.tables = tables;
         Ok(name)
     }

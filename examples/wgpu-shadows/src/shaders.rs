@@ -120,7 +120,7 @@ impl Tables {
 
     /// The table of a technique, if it has one.
     pub(crate) fn of(&self, technique: Variant) -> Option<&Table> {
-        self.0.get(technique.table()?)
+        self.0.get(technique.table()?.name)
     }
 
     /// A plan where it suits the table of a technique, the first one elsewhere.

@@ -14,6 +14,9 @@ use super::host::SiblingFile;
 use crate::diag::Failure;
 use crate::prove::Proved;
 
+/// A function that writes plans into one file and validates it. Rust embeds the files beside it.
+type Write = fn(&[Proved<'_>], &[SiblingFile]) -> Result<Vec<u8>, Failure>;
+
 /// A target, as its file declares it.
 pub(super) struct Definition {
     /// The name on the command line.
@@ -25,7 +28,7 @@ pub(super) struct Definition {
     /// The constant that a Rust module beside it embeds it as, unless it is Rust itself.
     constant: Option<Constant>,
     /// Writes plans into one file, validated.
-    write: fn(&[Proved<'_>], &[SiblingFile]) -> Result<Vec<u8>, Failure>,
+    write: Write,
 }
 
 /// A constant that holds a file.
