@@ -8,7 +8,9 @@
 use std::collections::BTreeSet;
 
 use crate::eval::{Interpreter, NeedsFetch};
-use crate::program::claims::{Candidates, Claim, decide};
+use crate::program::claims::decide;
+#[cfg(feature = "report")]
+use crate::program::claims::{Candidates, Claim};
 use crate::program::{Domain, InputId, InputSet, Program, Value};
 
 /// Most evaluations for one case.
@@ -78,6 +80,7 @@ pub fn in_state(program: &Program, row: usize, state: usize) -> Option<Arrival> 
 }
 
 /// The first claim on every state, by number of the state; `None` where the default gives the value.
+#[cfg(feature = "report")]
 pub(crate) fn claims(program: &Program) -> Vec<Option<Claim>> {
     let candidates = Candidates::new(program);
     let mut levels = vec![0; program.inputs.len()];

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::sync::mpsc;
 
+#[cfg(any(feature = "render", test))]
 use encase::ShaderType;
+#[cfg(any(feature = "render", test))]
 use encase::internal::WriteInto;
 use wgpu::util::DeviceExt;
 

@@ -106,6 +106,7 @@ impl Candidates {
     }
 
     /// The first row that may take a state, with its claim; `None` where the default gives the value.
+    #[cfg(feature = "report")]
     pub(crate) fn first(&self, program: &Program, state: usize, levels: &[u8]) -> Option<Claim> {
         let decided = |row: usize| (row, decide(program, &program.pool, program.rows[row].guard, levels));
         let (row, holds) = self.of(state).map(decided).find(|(_, holds)| *holds != Some(false))?;

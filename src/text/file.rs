@@ -76,6 +76,7 @@ impl PendingFile {
     }
 
     /// The path as the caller named it.
+    #[cfg(feature = "cli")]
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }

@@ -129,7 +129,7 @@ fn jumps_admit_both_sides_and_nothing_between() {
 #[test]
 fn too_many_forks_admit_everything() {
     let terms: Vec<String> = (0..12).map(|k| format!("step({}, x * 0.1)", 0.05 + f64::from(k) * 1e-10)).collect();
-    let program = parsed(&format!(
+    let program = parsed(format!(
         r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{ "x": Range(from: 0, to: 1) }}, output: Number(),
             cases: [Case(id: 1, when: "x >= 0", value: "{}")], default: 0)"#,
         terms.join(" + ")
