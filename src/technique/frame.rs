@@ -4,7 +4,7 @@ use std::any::{Any, TypeId};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Executor, Prepared, Settings, Technique, tables::BuiltIn};
+use super::{Executor, Settings, Technique, tables::BuiltIn};
 use crate::diag::Failure;
 use crate::program::Program;
 use crate::prove::Proved;
@@ -84,15 +84,6 @@ impl<'s> Frame<'s> {
             }
         }
         words.join(", ")
-    }
-
-    /// Prepares a technique, if it takes a light of the scene.
-    ///
-    /// # Errors
-    /// When it takes none, when the frame is beyond the device's limits, or the device fails.
-    pub fn prepare(&self, technique: &dyn Technique) -> Result<Box<dyn Prepared<'s> + 's>, Failure> {
-        technique.lights().of_scene(self.scene, technique.name())?;
-        technique.prepare(self)
     }
 
     /// The program that stands for a built-in table.

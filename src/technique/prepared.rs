@@ -3,7 +3,7 @@
 #[cfg(feature = "gpu")]
 use std::time::Duration;
 
-use super::{Frame, Rendered};
+use super::{Frame, Rendered, Technique};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::Columns;
 #[cfg(feature = "gpu")]
@@ -59,6 +59,17 @@ pub trait Prepared<'s> {
     fn passes(&mut self, detail: Detail) -> Result<Vec<Pass<'_>>, Failure> {
         let _ = detail;
         Ok(Vec::new())
+    }
+}
+
+impl<'s> Frame<'s> {
+    /// Prepares a technique, if it takes a light of the scene.
+    ///
+    /// # Errors
+    /// When it takes none, when the frame is beyond the device's limits, or the device fails.
+    pub fn prepare(&self, technique: &dyn Technique) -> Result<Box<dyn Prepared<'s> + 's>, Failure> {
+        technique.lights().of_scene(self.scene, technique.name())?;
+        technique.prepare(self)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::picture::shade;
-use super::{Settings, Shaded, Surface, Surroundings, Tables};
+use super::{NAME, Settings, Shaded, Surface, Surroundings, Tables};
 use crate::diag::Failure;
 use crate::scene::light::Lights;
 use crate::scene::rays::Rays;
@@ -12,9 +12,6 @@ use crate::technique::rendered::LIGHT;
 use crate::technique::setting::{Range, Value};
 use crate::technique::tables::{self, BuiltIn};
 use crate::technique::{Ability, Executor, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
-
-/// The technique's name.
-pub(super) const NAME: &str = "integrals";
 
 /// [`Settings::border`]
 pub const BORDER: Setting = Setting {

@@ -31,6 +31,9 @@ pub use visibility::{Cap, Facet, Occluders};
 pub use picture::Shaded;
 pub use tables::{Moments, Tables};
 
+/// The technique's name, in the registry and in refusals.
+const NAME: &str = "integrals";
+
 /// The fineness of the division of the sphere of directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {

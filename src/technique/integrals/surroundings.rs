@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::entry::NAME;
+use super::NAME;
 use super::visibility::{Cap, Facet, Occluders};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::scene::light::{Gaussian, Light, Lights};

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use super::entry::{PLAN, Shadow, inputs, layers, settings};
 use super::gpu::{GpuFrame, Output, Passes, Shader, Skeleton};
+use super::settings::{PLAN, settings};
+use super::shadow::{Shadow, inputs, layers};
 use super::{Settings, Variant};
 use crate::diag::Failure;
 use crate::gpu::Gpu;

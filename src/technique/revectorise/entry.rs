@@ -1,84 +1,15 @@
-//! The variants as techniques: settings, and what is compiled once for a frame.
+//! The variants as techniques: entries of the registry, and the executor that interprets.
 
 use std::sync::Arc;
 
-use super::stage::{Bias, Stage};
-use super::{Receivers, Settings, ShadowMap, Variant, Visibility, cpu};
+use super::settings::{BIAS, PCF_KERNEL, PLAN, SEARCH_LIMIT, SHADOW_MAP, SLOPE_BIAS, WALK_BIAS, settings};
+use super::shadow::{Shadow, inputs, layers};
+use super::{Settings, Variant, cpu};
 use crate::diag::Failure;
 use crate::program::Program;
 use crate::scene::light::Lights;
-use crate::technique::rendered::{CASE, STATE, VALUE};
-use crate::technique::setting::{Range, Value};
 use crate::technique::tables::{self, BuiltIn};
-use crate::technique::{
-    Ability, Executor, Frame, Inputs, Prepared, Progress, Rendered, Samples, Setting, Technique, reference,
-};
-
-/// Largest side of a shadow map.
-pub const MAX_MAP: u32 = 16384;
-
-/// Texels per side of the shadow map.
-pub const SHADOW_MAP: Setting = Setting {
-    name: "shadow_map",
-    doc: "texels per side of the shadow map",
-    default: Value::Whole(1024),
-    range: Range::Whole(1, MAX_MAP),
-    label: "map",
-};
-
-/// [`Bias::constant`]
-pub const BIAS: Setting = Setting {
-    name: "bias",
-    doc: "depth bias, in units of 2^-22 of the light's range",
-    default: Value::Number(Bias::DEFAULT.constant as f64),
-    range: Range::Number(0.0, 1e6),
-    label: "",
-};
-
-/// [`Bias::slope`]
-pub const SLOPE_BIAS: Setting = Setting {
-    name: "slope_bias",
-    doc: "depth bias, times the slope of the surface",
-    default: Value::Number(Bias::DEFAULT.slope as f64),
-    range: Range::Number(0.0, 1e6),
-    label: "",
-};
-
-/// [`Settings::search_limit`]
-pub const SEARCH_LIMIT: Setting = Setting {
-    name: "search_limit",
-    doc: "longest run that is revectorised, in texels",
-    default: Value::Whole(Settings::DEFAULT.search_limit),
-    range: Range::Whole(1, 4096),
-    label: "search limit",
-};
-
-/// [`Settings::walk_bias`]
-pub const WALK_BIAS: Setting = Setting {
-    name: "walk_bias",
-    doc: "depth bias along walks, as a share of the light's range",
-    default: Value::Number(Settings::DEFAULT.walk_bias as f64),
-    range: Range::Number(0.0, 1e6),
-    label: "",
-};
-
-/// [`Settings::pcf`]
-pub const PCF_KERNEL: Setting = Setting {
-    name: "pcf",
-    doc: "side of the kernel, in texels",
-    default: Value::Whole(Settings::DEFAULT.pcf),
-    range: Range::Odd(1, 31),
-    label: "",
-};
-
-/// The code shape of the table on a GPU.
-pub const PLAN: Setting = Setting {
-    name: "plan",
-    doc: "code shape of the table on a GPU",
-    default: Value::Plan(crate::plan::Shape::Ladder),
-    range: Range::Plan,
-    label: "",
-};
+use crate::technique::{Ability, Executor, Frame, Inputs, Prepared, Progress, Rendered, Setting, Technique, reference};
 
 /// A variant as a technique.
 #[derive(Debug)]
@@ -183,73 +114,6 @@ impl Technique for Entry {
             Executor::Gpu(gpu) => Ok(Box::new(super::device::OnGpu::new(self.variant, gpu, frame)?)),
         }
     }
-}
-
-/// A frame as seen by the variants: the light's depths, and where the camera's surfaces lie in them.
-#[derive(Debug)]
-pub(super) struct Shadow {
-    pub(super) map: ShadowMap,
-    pub(super) receivers: Receivers,
-}
-
-impl Shadow {
-    /// The key of what is made for a frame's settings.
-    pub(super) fn key(frame: &Frame<'_>) -> (u32, [u32; 2], bool) {
-        let Bias { constant, slope } = bias(frame);
-        (frame.settings.whole(&SHADOW_MAP), [constant, slope].map(f32::to_bits), frame.by_rays)
-    }
-
-    /// The shadow map and the receivers of a frame, made once for all variants.
-    pub(super) fn of(frame: &Frame<'_>) -> Result<Arc<Self>, Failure> {
-        frame.shared(Self::key(frame), || {
-            let stage = Stage::with_rays(frame.scene, Arc::clone(&frame.rays))?;
-            let size = frame.settings.whole(&SHADOW_MAP);
-            let map = match frame.on {
-                #[cfg(feature = "gpu")]
-                Executor::Gpu(gpu) if !frame.by_rays => {
-                    super::gpu::Raster::new(gpu, &stage)?.shadow_map(size, bias(frame))?
-                }
-                #[cfg(feature = "gpu")]
-                Executor::Gpu(_) => stage.shadow_map(size, bias(frame)),
-                Executor::Cpu => stage.shadow_map(size, bias(frame)),
-            };
-            Ok(Self { map, receivers: stage.receivers(&frame.surfaces, size) })
-        })
-    }
-}
-
-fn bias(frame: &Frame<'_>) -> Bias {
-    let [constant, slope] = [&BIAS, &SLOPE_BIAS].map(|setting| frame.settings.number(setting) as f32);
-    Bias { constant, slope }
-}
-
-/// How variants search and filter in a frame.
-pub(super) fn settings(frame: &Frame<'_>) -> Settings {
-    Settings {
-        search_limit: frame.settings.whole(&SEARCH_LIMIT),
-        walk_bias: frame.settings.number(&WALK_BIAS) as f32,
-        pcf: frame.settings.whole(&PCF_KERNEL),
-    }
-}
-
-/// Visibility as layers. Those of cases are there if a table was evaluated.
-pub(super) fn layers(visibility: Visibility, has_table: bool) -> Rendered {
-    let rendered = Rendered::default().with(VALUE, Samples::Numbers(visibility.value));
-    if !has_table {
-        return rendered;
-    }
-    rendered.with(CASE, Samples::Counts(visibility.case)).with(STATE, Samples::Counts(visibility.state))
-}
-
-/// The inputs of a table in every pixel that asks it, found by the search on the CPU.
-pub(super) fn inputs<'s>(
-    program: &'s Program,
-    shadow: &Shadow,
-    settings: &Settings,
-) -> Result<Vec<Inputs<'s>>, Failure> {
-    let query = cpu::Query { map: &shadow.map, receivers: &shadow.receivers, settings };
-    let cpu::Evaluations { columns, pixels } = cpu::evaluations(program, query)?;
-    Ok(vec![Inputs { program, columns, pixels }])
 }
 
 /// A variant by the interpreter.

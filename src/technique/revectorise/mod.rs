@@ -22,17 +22,17 @@ mod frame;
 pub mod gpu;
 mod inputs;
 mod probe;
+mod settings;
+mod shadow;
 pub mod stage;
 mod variant;
 
-pub use entry::{
-    BIAS, CASE_FREE, Entry, HARD, MAX_MAP, PCF, PCF_KERNEL, PLAN, RPCF, RSMSS, SEARCH_LIMIT, SHADOW_MAP, SLOPE_BIAS,
-    SMSR, WALK_BIAS,
-};
+pub use entry::{CASE_FREE, Entry, HARD, PCF, RPCF, RSMSS, SMSR};
 pub use frame::{
     DEPTH_UNIT, Receiver, ReceiverKind, Receivers, Settings, ShadowMap, Visibility, fixed_depth, max_slope,
 };
 pub use inputs::Vocabulary;
+pub use settings::{BIAS, MAX_MAP, PCF_KERNEL, PLAN, SEARCH_LIMIT, SHADOW_MAP, SLOPE_BIAS, WALK_BIAS};
 pub use variant::Variant;
 
 #[cfg(test)]
