@@ -193,17 +193,6 @@ fn page(
     Ok(sink)
 }
 
-#[cfg(not(feature = "report"))]
-fn page(
-    _: &Program,
-    _: &Tuning<'_>,
-    _: &crate::plan::Weights,
-    path: &std::path::Path,
-) -> std::result::Result<Sink, Failure> {
-    let error = Diagnostic::error(codes::UNWRITABLE, "cannot be written: this build has no reports");
-    Err(Failure::bare(shown(path), error.help("build umbrage with the feature `report`")))
-}
-
 fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
     let mut out = io::stdout().lock();
     writeln!(out, "device: {}", tuning.device)?;
@@ -214,21 +203,23 @@ fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
     for (place, kind) in Kind::ALL.into_iter().enumerate() {
         let floor = 1e6 * tuning.floor[place].median();
         writeln!(out, "\n{kind} inputs; reading and writing them alone takes {floor:.1} us")?;
-        writeln!(out, "  plan                       us      +-   to ladder   to floor   estimate")?;
+        writeln!(out, "  plan                       us      +-   to ladder   to floor")?;
         for line in tuning.ranking(kind) {
             let name = tuning.plans[line.plan].candidate.name();
             let noise = if line.plan != 0 && !line.differs { "   within noise of the ladder" } else { "" };
             writeln!(
                 out,
-                "  {name:<20} {:>9.1} {:>7.1} {:>11.3} {:>10.2} {:>10.3}{noise}",
-                line.us, line.uncertainty, line.vs_ladder, line.vs_floor, line.estimate
+                "  {name:<20} {:>9.1} {:>7.1} {:>11.3} {:>10.2}{noise}",
+                line.us, line.uncertainty, line.vs_ladder, line.vs_floor
             )?;
         }
-        let [group, everything] =
-            tuning.agreement(kind).map(|value| value.map_or("none".to_owned(), |value| format!("{value:.2}")));
-        writeln!(out, "  rank correlation of times with estimates {group}, with the size of plans {everything}")?;
     }
-    estimates(&mut out, tuning)?;
+    writeln!(out)?;
+    for plan in &tuning.plans {
+        if let Some(certificate) = &plan.proved.plan().certificate {
+            writeln!(out, "{}: {certificate}", plan.candidate.name())?;
+        }
+    }
     whole::human(&mut out, tuning)?;
     for (candidate, reason) in &tuning.skipped {
         writeln!(out, "left out: {}: {reason}", candidate.name())?;
@@ -244,30 +235,6 @@ fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
     }
     writeln!(out, "kept in {}", path.display())?;
     out.flush()?;
-    Ok(())
-}
-
-/// What the profile says that plans should cost.
-fn estimates(out: &mut impl Write, tuning: &Tuning<'_>) -> Result<()> {
-    writeln!(out, "\nestimated operations: of a thread by itself and of a tile in step, as profiled; of every step")?;
-    writeln!(out, "  plan                 alone  to ladder      tile  to ladder     every  to ladder")?;
-    let ladder = &tuning.plans[0].estimate;
-    for plan in &tuning.plans {
-        let (name, estimate) = (plan.candidate.name(), &plan.estimate);
-        let pair = |value: Option<f64>, of: Option<f64>| match value.zip(of) {
-            Some((value, of)) => format!("{value:>9.1} {:>10.3}", value / of),
-            None => format!("{:>9} {:>10}", "-", "-"),
-        };
-        let alone = pair(Some(estimate.alone), Some(ladder.alone));
-        let tile = pair(estimate.tile, ladder.tile);
-        let every = pair(Some(estimate.everything), Some(ladder.everything));
-        writeln!(out, "  {name:<16} {alone} {tile} {every}")?;
-    }
-    for plan in &tuning.plans {
-        if let Some(certificate) = &plan.proved.plan().certificate {
-            writeln!(out, "{}: {certificate}", plan.candidate.name())?;
-        }
-    }
     Ok(())
 }
 
@@ -287,38 +254,19 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
             "vs_floor": line.vs_floor,
             "differs": line.differs,
             "uncertainty": line.uncertainty,
-            "estimate": line.estimate,
         })
     });
-    let ladder = &tuning.plans[0].estimate;
-    let estimates = tuning.plans.iter().map(|plan| {
-        let estimate = &plan.estimate;
-        json!({
+    let expected = tuning.plans.iter().filter_map(|plan| {
+        let certificate = plan.proved.plan().certificate?;
+        Some(json!({
             "name": plan.candidate.name(),
-            "alone": estimate.alone,
-            "alone_vs_ladder": estimate.alone / ladder.alone,
-            "tile": estimate.tile,
-            "tile_vs_ladder": estimate.tile.zip(ladder.tile).map(|(tile, of_ladder)| tile / of_ladder),
-            "everything": estimate.everything,
-            "everything_vs_ladder": estimate.everything / ladder.everything,
-            "expected_tests": plan.proved.plan().certificate.map(|certificate| json!({
-                "written": certificate.written,
-                "planned": certificate.planned,
-                "bound": certificate.bound,
-                "optimal": certificate.is_optimal(),
-            })),
-        })
+            "written": certificate.written,
+            "planned": certificate.planned,
+            "bound": certificate.bound,
+            "optimal": certificate.is_optimal(),
+        }))
     });
-    let agreement: serde_json::Map<String, serde_json::Value> = Kind::ALL
-        .into_iter()
-        .map(|kind| {
-            let [group, everything] = tuning.agreement(kind);
-            (kind.name().to_owned(), json!({"group": group, "everything": everything}))
-        })
-        .collect();
     let whole = whole::object(tuning);
-    #[cfg(not(feature = "render"))]
-    let whole = json!([]);
     let left_out = |all: &[(tune::Candidate, String)]| {
         let one = |(candidate, reason): &(tune::Candidate, String)| json!({"name": candidate.name(), "reason": reason});
         all.iter().map(one).collect::<Vec<_>>()
@@ -331,8 +279,7 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
         "chosen": tuning.plans[tuning.chosen].candidate.name(),
         "skipped": left_out(&tuning.skipped),
         "wrong": left_out(&tuning.wrong),
-        "estimates": estimates.collect::<Vec<_>>(),
-        "agreement": agreement,
+        "expected_tests": expected.collect::<Vec<_>>(),
         "whole": whole,
     })
 }

@@ -7,7 +7,6 @@
 //! those that cannot be told from it the simplest, so that noise alone never
 //! makes a choice.
 
-mod estimate;
 #[cfg(feature = "report")]
 mod graph;
 mod inputs;
@@ -27,9 +26,7 @@ use crate::profile::Fitted;
 use crate::program::Program;
 use crate::prove::Proved;
 use crate::tuned::{Choice, Evidence};
-use estimate::rank_correlation;
 
-pub use estimate::Estimate;
 pub use inputs::Kind;
 #[cfg(feature = "report")]
 pub use page::page;
@@ -123,8 +120,6 @@ pub struct Measured<'p> {
     pub check: diff::Run,
     /// Times by kind of input, in the order of [`Kind::ALL`].
     pub times: Vec<Times>,
-    /// What it should cost.
-    pub estimate: Estimate,
 }
 
 /// What tuning found.
@@ -182,7 +177,7 @@ pub fn tune<'p>(
     for ((candidate, proved), check) in proved.drain(..).zip(checks) {
         match check.offenders.first() {
             Some(offender) => wrong.push((candidate, format!("{} at {}", offender.reason, offender.inputs))),
-            None => plans.push(Measured { candidate, proved, check, times: Vec::new(), estimate: Estimate::default() }),
+            None => plans.push(Measured { candidate, proved, check, times: Vec::new() }),
         }
     }
     if plans.first().is_none_or(|plan| plan.candidate != Candidate::WRITTEN) {
@@ -201,7 +196,6 @@ pub fn tune<'p>(
         subjects.push(Timed::plan(gpu, &plan.proved, options.rows_of_thread)?);
     }
     let mut floor = Vec::new();
-    let mut measured_at = Vec::new();
     for kind in Kind::ALL {
         progress(&format!("measuring {kind} inputs"));
         let columns = match kind {
@@ -225,10 +219,6 @@ pub fn tune<'p>(
         for (plan, times) in plans.iter_mut().zip(times) {
             plan.times.push(times);
         }
-        measured_at.push(columns);
-    }
-    for plan in &mut plans {
-        plan.estimate = Estimate::new(plan.proved.plan(), &measured_at, &profile.profile);
     }
     let chosen = choose(&plans);
     Ok(Tuning {
@@ -296,8 +286,6 @@ pub struct Line {
     pub vs_floor: f64,
     /// Whether it differs from the ladder as written by more than noise.
     pub differs: bool,
-    /// What a group of threads should cost, relative to the ladder as written.
-    pub estimate: f64,
 }
 
 impl Tuning<'_> {
@@ -315,22 +303,11 @@ impl Tuning<'_> {
                 vs_ladder: times.median() / ladder.median(),
                 vs_floor: times.median() / floor.median(),
                 differs: times.differs_from(ladder),
-                estimate: measured.estimate.of_kind[place] / self.plans[0].estimate.of_kind[place],
             }
         };
         let mut lines: Vec<Line> = self.plans.iter().enumerate().map(line).collect();
         lines.sort_by(|a, b| a.us.total_cmp(&b.us));
         lines
-    }
-
-    /// How well the estimates put the plans in the order of their times, -1 to 1:
-    /// those of a group in step, and those of every step of the plan.
-    pub fn agreement(&self, kind: Kind) -> [Option<f64>; 2] {
-        let lines = self.ranking(kind);
-        let times: Vec<f64> = lines.iter().map(|line| line.us).collect();
-        let group: Vec<f64> = lines.iter().map(|line| line.estimate).collect();
-        let everything: Vec<f64> = lines.iter().map(|line| self.plans[line.plan].estimate.everything).collect();
-        [group, everything].map(|estimates| rank_correlation(&estimates, &times))
     }
 
     /// Whether the chosen plan differs from the ladder as written by more than noise, on captured inputs.

@@ -39,8 +39,6 @@ pub fn page(program: &Program, tuning: &Tuning<'_>, weights: &Weights) -> String
         h2 { "Times" }
         figure { (PreEscaped(times(tuning))) }
         @for (kind, floor) in Kind::ALL.into_iter().zip(&tuning.floor) { (ranking(tuning, kind, floor.median())) }
-        h2 { "What it should cost" }
-        (estimates(tuning))
         (whole_shaders(tuning))
         @if !tuning.skipped.is_empty() || !tuning.wrong.is_empty() {
             h2 { "Left out" }
@@ -70,7 +68,7 @@ fn ranking(tuning: &Tuning<'_>, kind: Kind, floor: f64) -> Markup {
         h3 { (kind.name()) " inputs" }
         p.soft { "Reading and writing them alone, the floor, takes " (format!("{:.1}", 1e6 * floor)) " µs." }
         table {
-            tr { th { "plan" } th.n { "µs" } th.n { "± µs" } th.n { "to the ladder" } th.n { "to the floor" } th.n { "estimate" } th { "" } }
+            tr { th { "plan" } th.n { "µs" } th.n { "± µs" } th.n { "to the ladder" } th.n { "to the floor" } th { "" } }
             @for line in tuning.ranking(kind) {
                 tr {
                     td { code { (tuning.plans[line.plan].candidate.name()) } @if line.plan == tuning.chosen { " (chosen)" } }
@@ -78,51 +76,9 @@ fn ranking(tuning: &Tuning<'_>, kind: Kind, floor: f64) -> Markup {
                     td.n { (format!("{:.1}", line.uncertainty)) }
                     td.n { (format!("{:.3}", line.vs_ladder)) }
                     td.n { (format!("{:.2}", line.vs_floor)) }
-                    td.n { (format!("{:.3}", line.estimate)) }
                     td.soft { @if !line.differs && line.plan != 0 { "within noise of the ladder" } }
                 }
             }
-        }
-    }
-}
-
-/// What threads that run in step should pay for a plan, where states occur as profiled.
-fn estimates(tuning: &Tuning<'_>) -> Markup {
-    let ladder = &tuning.plans[0].estimate;
-    let ratio = |value: Option<f64>, of: Option<f64>| {
-        value.zip(of).map_or("no tiles in the profile".to_owned(), |(value, of)| format!("{:.3}", value / of))
-    };
-    html! {
-        p {
-            "Threads that run in step pay for every path that one of them takes. So a group costs the sum over the "
-            "distinct steps of its threads, in operations as written. The profile recorded which states occur "
-            "together in tiles of 8 x 4 pixels; \"estimate\" in the tables above is the same for 32 consecutive rows "
-            "of the inputs that were measured, relative to the ladder as written. A software rasteriser may run both "
-            "sides of every branch; then every step counts."
-        }
-        table {
-            tr { th { "plan" } th.n { "a thread alone" } th.n { "to the ladder" } th.n { "a tile" } th.n { "to the ladder" } th.n { "every step" } th.n { "to the ladder" } }
-            @for plan in &tuning.plans {
-                @let estimate = &plan.estimate;
-                tr {
-                    td { code { (plan.candidate.name()) } }
-                    td.n { (format!("{:.1}", estimate.alone)) }
-                    td.n { (format!("{:.3}", estimate.alone / ladder.alone)) }
-                    td.n { (estimate.tile.map_or(String::new(), |tile| format!("{tile:.1}"))) }
-                    td.n { (ratio(estimate.tile, ladder.tile)) }
-                    td.n { (format!("{:.1}", estimate.everything)) }
-                    td.n { (format!("{:.3}", estimate.everything / ladder.everything)) }
-                }
-            }
-        }
-        p.soft {
-            "Rank correlation of the times with the estimate for groups, and with all that a plan is made of: "
-            @for (number, kind) in Kind::ALL.into_iter().enumerate() {
-                @let values = tuning.agreement(kind).map(|value| value.map_or("none".to_owned(), |v| format!("{v:.2}")));
-                @if number > 0 { "; " }
-                (kind.name()) " " (values[0]) " and " (values[1])
-            }
-            "."
         }
     }
 }

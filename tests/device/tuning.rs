@@ -229,13 +229,11 @@ fn tuning_ranks_plans_and_keeps_the_choice() {
         for plan in of_input {
             assert!(plan["us"].as_f64().unwrap() > 0.0 && plan["vs_floor"].as_f64().unwrap() > 0.0);
             assert!(plan["vs_ladder"].as_f64().unwrap() > 0.0 && plan["differs"].is_boolean());
-            assert!(plan["estimate"].as_f64().unwrap() > 0.0);
             names.push(plan["name"].as_str().unwrap().to_owned());
         }
         names.sort();
         assert!(names.iter().any(|name| name == "ladder") && names.iter().any(|name| name == "switch"), "{names:?}");
     }
-    assert_eq!(object["estimates"][0]["alone_vs_ladder"], 1.0);
     assert_eq!(object["whole"], Json::from(Vec::<Json>::new()));
     let files: Vec<_> = std::fs::read_dir(place.path("tuned")).unwrap().map(|entry| entry.unwrap().path()).collect();
     assert_eq!(files.len(), 1);
