@@ -58,7 +58,7 @@ pub mod table;
 #[cfg(feature = "render")]
 pub mod technique;
 pub mod text;
-#[cfg(feature = "gpu")]
+#[cfg(all(feature = "gpu", feature = "render"))]
 pub mod tune;
 pub mod tuned;
 

@@ -7,12 +7,9 @@
 //! those that cannot be told from it the simplest, so that noise alone never
 //! makes a choice.
 
-#[cfg(feature = "report")]
 mod graph;
 mod inputs;
-#[cfg(feature = "report")]
 mod page;
-#[cfg(feature = "render")]
 pub mod whole;
 
 use crate::diag::{Diagnostic, Failure, codes};
@@ -28,7 +25,6 @@ use crate::prove::Proved;
 use crate::tuned::{Choice, Evidence};
 
 pub use inputs::Kind;
-#[cfg(feature = "report")]
 pub use page::page;
 
 /// Rows that results are compared at, at most.
@@ -146,7 +142,6 @@ pub struct Tuning<'p> {
     /// The chosen plan, as an index into `plans`.
     pub chosen: usize,
     /// The plans in whole shaders, if that was measured.
-    #[cfg(feature = "render")]
     pub whole: Vec<whole::Whole>,
 }
 
@@ -232,7 +227,6 @@ pub fn tune<'p>(
         skipped,
         wrong,
         chosen,
-        #[cfg(feature = "render")]
         whole: Vec::new(),
     })
 }

@@ -84,7 +84,6 @@ fn ranking(tuning: &Tuning<'_>, kind: Kind, floor: f64) -> Markup {
 }
 
 /// The plans in whole shaders, if that was measured.
-#[cfg(feature = "render")]
 fn whole_shaders(tuning: &Tuning<'_>) -> Markup {
     let name = |plan: usize| tuning.plans[plan].candidate.name();
     html! {
@@ -115,11 +114,6 @@ fn whole_shaders(tuning: &Tuning<'_>) -> Markup {
             }
         }
     }
-}
-
-#[cfg(not(feature = "render"))]
-fn whole_shaders(_: &Tuning<'_>) -> Markup {
-    html! {}
 }
 
 /// Times relative to the ladder as written, by plan and kind of input.

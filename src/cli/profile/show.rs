@@ -6,10 +6,13 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::{excluded, read_all};
+use crate::cli::input::has_extension;
 use crate::cli::messages::{Format, Report};
+use crate::cli::output::Sink;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::profile::{Frequency, Profile, fit, frequencies};
+use crate::picture;
+use crate::profile::{Frequency, Profile, chart, fit, frequencies};
 use crate::program::Program;
 use crate::text::file::shown;
 
@@ -54,7 +57,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         return Err(Failure::bare(name, error.help("count scenes in which the table is evaluated")).into());
     }
     match (&arguments.output, report.format) {
-        (Some(path), _) => picture(&profile, path)?,
+        (Some(path), _) => draw(&profile, path)?,
         (None, Format::Human) => text(&profile, program.as_ref())?,
         (None, Format::Json) => writeln!(io::stdout().lock(), "{}", object(&profile))?,
     }
@@ -116,14 +119,12 @@ fn object(profile: &Profile) -> serde_json::Value {
     })
 }
 
-fn picture(profile: &Profile, path: &std::path::Path) -> Result<()> {
-    use crate::cli::input::has_extension;
-    use crate::cli::output::Sink;
-    let svg = crate::profile::chart(profile);
+fn draw(profile: &Profile, path: &std::path::Path) -> Result<()> {
+    let svg = chart(profile);
     let bytes = if has_extension(path, "svg") {
         svg.into_bytes()
     } else if has_extension(path, "png") {
-        crate::picture::png(&crate::picture::raster(&svg, 2.0)?)?
+        picture::png(&picture::raster(&svg, 2.0)?)?
     } else {
         let error = Diagnostic::error(codes::UNWRITABLE, "is no kind of picture that can be written");
         return Err(Failure::bare(shown(path), error.help("name a file *.svg or *.png")).into());
@@ -131,10 +132,4 @@ fn picture(profile: &Profile, path: &std::path::Path) -> Result<()> {
     let mut sink = Sink::create(path)?;
     sink.write_all(&bytes).map_err(|error| sink.failure(&error))?;
     sink.finish()
-}
-
-#[cfg(not(feature = "report"))]
-fn picture(_: &Profile, path: &std::path::Path) -> Result<()> {
-    let error = Diagnostic::error(codes::UNWRITABLE, "cannot be drawn: this build has no pictures");
-    Err(Failure::bare(shown(path), error.help("build umbrage with the feature `report`")).into())
 }
