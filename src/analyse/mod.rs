@@ -11,8 +11,6 @@
 pub(crate) mod findings;
 mod lints;
 mod sets;
-#[cfg(feature = "precise")]
-mod singular;
 #[cfg(feature = "trial")]
 pub mod trial;
 pub(crate) mod values;
@@ -28,9 +26,9 @@ pub use findings::coverage::{Coverage, Dead, coverage};
 pub use findings::examples::agrees;
 pub use findings::numbers::{Range, ranges};
 pub use findings::overlap::{Overlap, overlaps};
-pub use lints::{Findings, LintLevel, LintLevels};
 #[cfg(feature = "precise")]
-pub use singular::{Singularity, domain_points, singularities};
+pub use findings::singular::{Singularity, domain_points, singularities};
+pub use lints::{Findings, LintLevel, LintLevels};
 
 /// Everything that is questionable or worth knowing about a program, without
 /// what the table itself acknowledges.

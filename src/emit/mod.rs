@@ -26,10 +26,9 @@ use language::wgsl::Wgsl;
 use crate::diag::Failure;
 use crate::prove::Proved;
 
-pub use host::SiblingFile;
 pub use language::glsl::GlslVersion;
 pub use module::lookup_words;
-pub use targets::Target;
+pub use targets::{SiblingFile, Target};
 pub use validate::{Translated, Validated, glsl_module, translate, wgsl_module, wgsl_text};
 
 /// Emits a proved plan and validates what was emitted.

@@ -20,7 +20,6 @@ mod precise;
 mod residual;
 mod scalar;
 
-pub use crate::points::sample::Samples;
 pub use admissible::{Admissible, IntervalInterpreter, Possible};
 pub use batch::{Batch, Missing};
 pub use columns::{ABSENT, Column, ColumnError, Columns, Path, Results};

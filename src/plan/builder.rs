@@ -88,9 +88,9 @@ impl<'p> Builder<'p> {
     pub(super) fn finish(self, setting: &Setting<'p, '_>, key: KeyLayout, lookup: Vec<u16>, root: StepId) -> Plan<'p> {
         Plan {
             program: self.program,
-            shape: setting.shape,
-            assumed: setting.assume,
-            weights_origin: setting.weights.map(|weights| weights.origin().to_owned()),
+            shape: setting.options.shape,
+            assumed: setting.options.assume,
+            weights_origin: setting.options.weights.map(|weights| weights.origin().to_owned()),
             inputs: setting.inputs,
             certificate: None,
             notes: Vec::new(),

@@ -1,23 +1,20 @@
 //! The setting of a plan: the states that count, and the share of each.
 
-use super::{PlanOptions, Shape, Weights};
+use super::{PlanOptions, Weights};
 use crate::diag::fnv1a;
 use crate::program::Program;
 use crate::program::claims::Claims;
 use crate::program::reachable;
 use crate::program::symbolic::{Machine, View};
 
-/// The program, the shape asked for, the states, and their weights.
+/// The program, the plan asked for, and the states with their weights.
 pub(super) struct Setting<'p, 'w> {
     pub(super) program: &'p Program,
-    pub(super) shape: Shape,
-    pub(super) weights: Option<&'w Weights>,
+    pub(super) options: PlanOptions<'w>,
     /// The states in which the plan must be right, ascending.
     pub(super) states: Vec<usize>,
     /// The share of each of them.
     pub(super) shares: Vec<f64>,
-    /// True if the plan may do anything where the assumptions do not hold.
-    pub(super) assume: bool,
     /// A hash of everything that the plan is made from.
     pub(super) inputs: u64,
     claims: Option<Claims>,
@@ -49,11 +46,9 @@ impl<'p, 'w> Setting<'p, 'w> {
         let shares = states.iter().map(|state| weight(state) / sum).collect();
         Ok(Self {
             program,
-            shape: options.shape,
-            weights: options.weights,
+            options: *options,
             states,
             shares,
-            assume: options.assume,
             inputs: inputs(program, options),
             claims: Claims::new(program),
         })
@@ -62,7 +57,7 @@ impl<'p, 'w> Setting<'p, 'w> {
     /// Returns whether the path of a machine is one that counts.
     pub(super) fn assumptions_hold(&self, machine: &mut Machine<'_>) -> bool {
         let mut assumptions = self.program.assumptions.iter();
-        !self.assume || assumptions.all(|assumption| machine.holds(assumption.condition, View::PLAIN))
+        !self.options.assume || assumptions.all(|assumption| machine.holds(assumption.condition, View::PLAIN))
     }
 
     /// The claims on every state.

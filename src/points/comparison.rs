@@ -7,9 +7,9 @@
 
 use std::collections::BTreeSet;
 
-use super::Point;
 use super::random::Random;
-use crate::eval::{Interpreter, NeedsFetch, Samples};
+use super::{Point, Samples};
+use crate::eval::{Interpreter, NeedsFetch};
 use crate::program::{BinaryOp, Cond, CondId, Domain, ExprId, InputId, Node, Program, Value};
 
 /// The number of points per state.

@@ -5,7 +5,9 @@ use crate::program::Value;
 #[cfg(feature = "gpu")]
 pub(crate) mod comparison;
 pub mod random;
-pub(crate) mod sample;
+mod sample;
+
+pub use sample::Samples;
 
 /// A point: one value per input; fetched ones may be absent until they are asked for.
 pub type Point = Vec<Option<Value>>;

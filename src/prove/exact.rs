@@ -18,7 +18,7 @@
 
 use std::collections::HashMap;
 
-use super::report::{Counterexample, Proof, Refusal};
+use super::report::{Counterexample, MAX_PATHS, MAX_PATHS_OF_STATE, Proof, Refusal};
 use super::{rounding, route};
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::claims::{Candidates, Places};
@@ -26,9 +26,6 @@ use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
 use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
 
-/// Most paths of one state, and of all states together beyond the first of each.
-pub(super) const MAX_PATHS_OF_STATE: usize = 1 << 16;
-pub(super) const MAX_PATHS: usize = 1 << 18;
 /// Most questions answered in one state, on all of its paths.
 const MAX_ANSWERS: usize = 1 << 22;
 

@@ -2,9 +2,12 @@
 
 use std::fmt;
 
-use super::exact::{MAX_PATHS, MAX_PATHS_OF_STATE};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::program::Program;
+
+/// Most paths of one state that are gone through, and of all states together beyond the first of each.
+pub(super) const MAX_PATHS_OF_STATE: usize = 1 << 16;
+pub(super) const MAX_PATHS: usize = 1 << 18;
 
 /// The findings of a proof.
 #[derive(Debug, Clone, PartialEq)]

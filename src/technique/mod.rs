@@ -12,6 +12,7 @@
 pub mod capture;
 pub mod cases;
 pub mod count;
+pub mod difference;
 pub mod executor;
 pub mod frame;
 pub mod integrals;

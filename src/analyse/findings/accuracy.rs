@@ -9,7 +9,8 @@
 
 use super::{Analysis, Run};
 use crate::diag::{Diagnostic, codes};
-use crate::eval::{Interpreter, Samples};
+use crate::eval::Interpreter;
+use crate::points::Samples;
 use crate::program::{Accuracy, Function, InputId, Limit, Program, Value};
 use crate::show::{Precision, sentence};
 

@@ -9,6 +9,8 @@ pub(crate) mod examples;
 pub(crate) mod lines;
 pub(crate) mod numbers;
 pub(crate) mod overlap;
+#[cfg(feature = "precise")]
+pub(crate) mod singular;
 pub(crate) mod style;
 pub(crate) mod symmetry;
 pub(crate) mod unused;
@@ -39,7 +41,7 @@ pub(super) const ALL: &[Analysis] = &[
     accuracy::ANALYSIS,
     unused::ANALYSIS,
     #[cfg(feature = "precise")]
-    super::singular::ANALYSIS,
+    singular::ANALYSIS,
     overlap::ANALYSIS,
     coverage::ANALYSIS,
     lines::ANALYSIS,

@@ -18,11 +18,11 @@ use super::output::Sink;
 use super::progress::Progress;
 use super::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::picture::compare::{self, Region};
 use crate::picture::sheet::{self, Entry};
 use crate::picture::srgb;
 use crate::program::Program;
 use crate::scene::Scene;
+use crate::technique::difference::{Region, difference};
 use crate::technique::rendered::{CASE, NONE, VALUE};
 use crate::technique::{self, Ability, Executor, Frame, Rendered, capture, cases, shade};
 use crate::text::file::shown;
@@ -176,7 +176,7 @@ fn contact(frame: &Frame<'_>, answers: &[Answer<'_>]) -> std::result::Result<Rgb
         if let (Some(truth), Some(value)) = (truth, answer.rendered.numbers(VALUE)) {
             let weights = shade::contribution(&frame.scene.punctual(answer.technique.name())?, &frame.surfaces);
             let region = Region::surfaces(&frame.surfaces, &weights);
-            let found = compare::difference(&frame.surfaces, value, truth, &region);
+            let found = difference(&frame.surfaces, value, truth, &region);
             label += &format!(", RMSE {:.4}", found.rmse);
         }
         let picture = srgb::encode(&shade::picture(frame, &answer.rendered)?);

@@ -14,9 +14,9 @@ use crate::cli::output::Sink;
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::picture::compare::{self, Difference, NEAR, Region};
 use crate::picture::{self, plot};
 use crate::scene::Scene;
+use crate::technique::difference::{Difference, NEAR, Region, difference};
 use crate::technique::rendered::VALUE;
 use crate::technique::{self, Executor, Frame, Prepared, Rendered, shade};
 use crate::text::file::shown;
@@ -170,7 +170,7 @@ fn measure(
                     Region::surfaces(&frame.surfaces, &weights),
                     Region::silhouettes(&frame.surfaces, &weights, truth),
                 ];
-                let [all, near] = regions.map(|region| compare::difference(&frame.surfaces, value, truth, &region));
+                let [all, near] = regions.map(|region| difference(&frame.surfaces, value, truth, &region));
                 rows.push(Row { scene: scene.name.clone(), map: *map, technique: *technique, all, near });
             }
         }

@@ -11,7 +11,6 @@ use super::language::rust::Rust;
 use super::language::{Dialect, Prefix, Type};
 use super::module;
 use super::names::{Names, fetches, input_type};
-use super::targets::{Constant, Target};
 use super::text::{Text, harmless};
 use crate::plan::KeyLayout;
 use crate::program::{Domain, Input, LevelKind, Program};
@@ -28,27 +27,8 @@ pub(super) enum Host {
     Wgpu,
 }
 
-/// A file that lies in the directory of a Rust module, which makes a constant of it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SiblingFile {
-    /// Its target, or `None` for the words of a lookup.
-    pub target: Option<Target>,
-    /// Its name.
-    pub file: String,
-}
-
-impl SiblingFile {
-    /// The constant, unless it is Rust itself.
-    fn constant(&self) -> Option<String> {
-        let lookup = Constant { doc: "The words of the lookup, little-endian.", name: "LOOKUP", text: false };
-        let Constant { doc, name, text } = self.target.map_or(Some(lookup), Target::constant)?;
-        let (ty, include) = if text { ("&str", "include_str") } else { ("&[u8]", "include_bytes") };
-        Some(format!("/// {doc}\npub const {name}: {ty} = {include}!(\"{}\");", self.file))
-    }
-}
-
-/// The Rust modules of plans, one after the other.
-pub(super) fn modules(plans: &[Proved<'_>], host: Host, siblings: &[SiblingFile]) -> String {
+/// The Rust modules of plans, one after the other, with the constants that embed the shaders beside them.
+pub(super) fn modules(plans: &[Proved<'_>], host: Host, embedded: &[String]) -> String {
     let mut out = String::new();
     for (index, proved) in plans.iter().enumerate() {
         if index > 0 {
@@ -60,32 +40,31 @@ pub(super) fn modules(plans: &[Proved<'_>], host: Host, siblings: &[SiblingFile]
         let side = Side { proved, program, prefix: Prefix::new(&program.name), names: Names::new(program), host };
         side.write(&mut text);
         if program.function.is_none() {
-            sources(&mut text, siblings);
+            sources(&mut text, embedded);
         }
         out += &text.finish();
         out += "}\n";
     }
     let table = plans.first().map(|proved| proved.plan().program).filter(|program| program.function.is_some());
-    if let Some(table) = table.filter(|_| siblings.iter().any(|file| file.constant().is_some())) {
+    if let Some(table) = table.filter(|_| !embedded.is_empty()) {
         // The functions share their files.
         let mut text = Text::default();
         text.gap();
         text.open(format!("#[allow(dead_code, missing_docs, unreachable_pub)]\npub mod {} {{", table.table()));
-        sources(&mut text, siblings);
+        sources(&mut text, embedded);
         text.close();
         out += &text.finish();
     }
     out
 }
 
-fn sources(text: &mut Text, siblings: &[SiblingFile]) {
-    let constants: Vec<String> = siblings.iter().filter_map(SiblingFile::constant).collect();
-    if constants.is_empty() {
+fn sources(text: &mut Text, embedded: &[String]) {
+    if embedded.is_empty() {
         return;
     }
     text.comment("The shaders, made from the same table.");
     text.open("pub mod source {");
-    for constant in constants {
+    for constant in embedded {
         text.line(constant);
     }
     text.close();

@@ -10,7 +10,6 @@ mod translated;
 mod wesl;
 mod wgsl;
 
-use super::host::SiblingFile;
 use crate::diag::Failure;
 use crate::prove::Proved;
 
@@ -33,18 +32,37 @@ pub(super) struct Definition {
 
 /// A constant that holds a file.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Constant {
+struct Constant {
     /// Its documentation.
-    pub(super) doc: &'static str,
+    doc: &'static str,
     /// Its name.
-    pub(super) name: &'static str,
-    /// Whether the file is text.
-    pub(super) text: bool,
+    name: &'static str,
+    /// True if the file is text.
+    text: bool,
 }
 
 impl Constant {
     const fn text(doc: &'static str, name: &'static str) -> Option<Self> {
         Some(Self { doc, name, text: true })
+    }
+}
+
+/// A file that lies in the directory of a Rust module, which makes a constant of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SiblingFile {
+    /// Its target, or `None` for the words of a lookup.
+    pub target: Option<Target>,
+    /// Its name.
+    pub file: String,
+}
+
+impl SiblingFile {
+    /// The constant, unless it is Rust itself.
+    fn constant(&self) -> Option<String> {
+        let lookup = Constant { doc: "The words of the lookup, little-endian.", name: "LOOKUP", text: false };
+        let Constant { doc, name, text } = self.target.map_or(Some(lookup), Target::constant)?;
+        let (ty, include) = if text { ("&str", "include_str") } else { ("&[u8]", "include_bytes") };
+        Some(format!("/// {doc}\npub const {name}: {ty} = {include}!(\"{}\");", self.file))
     }
 }
 
@@ -120,7 +138,7 @@ impl Target {
     }
 
     /// The constant that a Rust module beside it embeds it as, unless it is Rust itself.
-    pub(super) fn constant(self) -> Option<Constant> {
+    fn constant(self) -> Option<Constant> {
         self.definition().constant
     }
 

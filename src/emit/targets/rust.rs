@@ -1,14 +1,15 @@
 //! Rust modules: functions, and what a host needs around them.
 
-use super::Definition;
+use super::{Definition, SiblingFile};
 use crate::emit::host::{self, Host};
+use crate::prove::Proved;
 
 pub(super) static PLAIN: Definition = Definition {
     name: "rust",
     extension: "rs",
     default: true,
     constant: None,
-    write: |plans, siblings| Ok(host::modules(plans, Host::Plain, siblings).into_bytes()),
+    write: |plans, siblings| Ok(write(plans, Host::Plain, siblings)),
 };
 
 pub(super) static BYTEMUCK: Definition = Definition {
@@ -16,7 +17,7 @@ pub(super) static BYTEMUCK: Definition = Definition {
     extension: "bytemuck.rs",
     default: false,
     constant: None,
-    write: |plans, siblings| Ok(host::modules(plans, Host::Bytemuck, siblings).into_bytes()),
+    write: |plans, siblings| Ok(write(plans, Host::Bytemuck, siblings)),
 };
 
 pub(super) static WGPU: Definition = Definition {
@@ -24,5 +25,10 @@ pub(super) static WGPU: Definition = Definition {
     extension: "wgpu.rs",
     default: false,
     constant: None,
-    write: |plans, siblings| Ok(host::modules(plans, Host::Wgpu, siblings).into_bytes()),
+    write: |plans, siblings| Ok(write(plans, Host::Wgpu, siblings)),
 };
+
+fn write(plans: &[Proved<'_>], host: Host, siblings: &[SiblingFile]) -> Vec<u8> {
+    let embedded: Vec<String> = siblings.iter().filter_map(SiblingFile::constant).collect();
+    host::modules(plans, host, &embedded).into_bytes()
+}

@@ -2,8 +2,8 @@
 
 use super::stage::{Bias, Stage};
 use super::{Settings, Variant, Visibility, cpu};
-use crate::picture::compare::{self, Region};
 use crate::scene::Scene;
+use crate::technique::difference::{Region, difference};
 use crate::technique::reference::{self, Samples};
 use crate::technique::shade;
 
@@ -46,7 +46,7 @@ fn every_variant_on_every_scene() {
             })
             .collect();
         let of = |variant: Variant| &seen[variant as usize];
-        let error = |variant| compare::difference(&surfaces, &of(variant).value, &truth, &region).rmse;
+        let error = |variant| difference(&surfaces, &of(variant).value, &truth, &region).rmse;
         for (index, variant) in Variant::ALL.into_iter().enumerate() {
             let visibility = of(variant);
             assert!(visibility.value.iter().all(|value| (0.0..=1.0).contains(value)), "{name} {variant}");

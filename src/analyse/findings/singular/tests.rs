@@ -118,7 +118,7 @@ fn messages(programs: &[crate::program::Program], function: &str, code: crate::d
 #[test]
 fn the_errata_of_the_printed_integrals_are_found() {
     use crate::diag::codes::{CANCELS, REMOVABLE};
-    let printed = programs("printed.ron", include_str!("../../../tables/double_product_printed.ron"));
+    let printed = programs("printed.ron", include_str!("../../../../tables/double_product_printed.ron"));
     let expect = |function: &str, places: &[&str]| {
         let message = messages(&printed, function, REMOVABLE);
         for place in places {
@@ -151,7 +151,7 @@ fn expect_nothing(programs: &[crate::program::Program], function: &str) {
 #[test]
 fn the_errata_of_the_printed_gaussian_are_found() {
     use crate::diag::codes::{OVERFLOW, REMOVABLE};
-    let printed = programs("printed.ron", include_str!("../../../tables/spherical_gaussian_printed.ron"));
+    let printed = programs("printed.ron", include_str!("../../../../tables/spherical_gaussian_printed.ron"));
     // E7: 0/0 at two places, and an overflow on the way.
     for function in ["r0", "r1", "alpha", "beta"] {
         let message = messages(&printed, function, REMOVABLE);

@@ -22,7 +22,7 @@ mod zeros;
 
 use std::collections::BTreeMap;
 
-use super::findings::{Analysis, Run};
+use super::{Analysis, Run};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::eval::{Precise, Unknown};
 use crate::program::normal::Normaliser;
