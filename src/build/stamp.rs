@@ -17,6 +17,9 @@ use crate::text::file;
 /// Name of the stamp in `OUT_DIR`.
 const NAME: &str = "umbrage.stamp";
 
+/// Largest file that is looked at. What is larger counts as changed.
+const MAX_BYTES: u64 = 256 << 20;
+
 /// What was made last time is as it would be made now.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Fresh {
@@ -28,7 +31,7 @@ pub(super) struct Fresh {
 
 /// Whether the files that a request asks for are there already.
 pub(super) fn fresh(place: &Path, request: &Request, output: &Path) -> Option<Fresh> {
-    let text = std::fs::read_to_string(place.join(NAME)).ok()?;
+    let text = file::read_text(&place.join(NAME), MAX_BYTES).ok()?;
     let mut lines = text.lines();
     if lines.next()? != head(request, output) {
         return None;
@@ -112,7 +115,7 @@ fn hash_of(path: &Path) -> Option<String> {
             let names = find_tables(path).unwrap_or_default();
             fnv1a(names.iter().flat_map(|name| name.as_os_str().as_encoded_bytes().iter().copied().chain([0])))
         }
-        false => fnv1a(std::fs::read(path).ok()?),
+        false => fnv1a(file::read_bytes(path, MAX_BYTES).ok()?),
     };
     Some(format!("{hash:016x}"))
 }

@@ -19,6 +19,7 @@ use crate::analyse::LintLevel;
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::emit::Target;
 use crate::plan::Shape;
+use crate::text::reach;
 
 /// The variable that names a directory for copies that people can read.
 const COPIES: &str = "UMBRAGE_OUT_DIR";
@@ -145,6 +146,12 @@ impl Tables {
     /// Does not show findings of this code.
     pub fn allow(self, code: &str) -> Self {
         self.level(code, LintLevel::Allow)
+    }
+
+    /// Lets tables import files outside of their own directories, in this and every later build of the process.
+    pub fn allow_outside(self) -> Self {
+        reach::allow_outside();
+        self
     }
 
     fn level(mut self, code: &str, level: LintLevel) -> Self {

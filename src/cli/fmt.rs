@@ -1,6 +1,6 @@
 //! `umbrage fmt`: tables in the layout of this project.
 
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -8,11 +8,11 @@ use super::messages::{Format, Report};
 use super::output::Sink;
 use super::{Outcome, Result};
 use crate::build;
-use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::diag::{Failure, Source};
 use crate::format;
-use crate::text::file::{io_reason, not_utf8, read_text, shown};
+use crate::text::file::{STDIN, read_stdin, read_text, shown, utf8};
 
-/// Largest table on standard input, in bytes.
+/// Largest accepted table, in bytes.
 const MAX_BYTES: u64 = 16 << 20;
 
 /// Arguments of `umbrage fmt`.
@@ -107,16 +107,5 @@ fn read(path: &Path) -> std::result::Result<Arc<Source>, Failure> {
         let name = shown(path);
         return Ok(Source::new(name, read_text(path, MAX_BYTES)?));
     }
-    let mut bytes = Vec::new();
-    let fail = |message: String| {
-        let error = Diagnostic::error(codes::UNREADABLE, message);
-        Failure::bare("standard input", error.help("give it one table, as UTF-8 text of at most 16 MiB"))
-    };
-    let read = io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes);
-    read.map_err(|error| fail(format!("cannot be read: {}", io_reason(&error))))?;
-    if bytes.len() as u64 > MAX_BYTES {
-        return Err(fail("is larger than 16 MiB".to_owned()));
-    }
-    let text = String::from_utf8(bytes).map_err(|error| fail(not_utf8(&error)))?;
-    Ok(Source::new("standard input", text))
+    Ok(Source::new(STDIN, utf8(Path::new(STDIN), read_stdin(MAX_BYTES)?)?))
 }

@@ -47,6 +47,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::Target;
 use crate::plan::Shape;
 use crate::show::Precision;
+use crate::text::reach;
 use messages::{Color, Format, Report};
 
 #[derive(Parser)]
@@ -63,6 +64,9 @@ struct Arguments {
     /// Form of messages: text for people, or one JSON object per line
     #[arg(long, global = true, value_enum, default_value = "human", value_name = "FORM")]
     message_format: Format,
+    /// Let tables, scenes and meshes name files outside of their own directories
+    #[arg(long, global = true)]
+    allow_outside: bool,
 }
 
 #[derive(Subcommand)]
@@ -179,6 +183,9 @@ pub fn main() -> ExitCode {
         }
     };
     let report = Report::new(arguments.color, arguments.message_format);
+    if arguments.allow_outside {
+        reach::allow_outside();
+    }
     let result = match arguments.command {
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
         #[cfg(feature = "gpu")]

@@ -1,11 +1,12 @@
 //! Reads the tables that a table imports, and those that they import.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{MAX_BYTES, Table, names, read};
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::text::file::{read_text, shown};
+use crate::text::reach::{OutOfReach, beside, plain};
 
 /// Most tables in a chain of imports.
 const MAX_CHAIN: usize = 8;
@@ -33,7 +34,10 @@ fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
             Diagnostic::error(codes::IMPORT, message).at(import.path.span, label.to_owned())
         };
         let folder = Path::new(&source.name).parent().unwrap_or(Path::new(""));
-        let path = plain(&folder.join(&import.path.value));
+        let path = beside(folder, &import.path.value).map_err(|OutOfReach| {
+            let message = format!("`{}` {}", import.path.value.escape_debug(), OutOfReach::WHAT);
+            fail(error(message, "imported here").help(OutOfReach::HELP))
+        })?;
         let name = shown(&path);
         if chain.contains(&path) {
             let shown = chain.iter().chain([&path]).map(|p| shown(p));
@@ -57,19 +61,4 @@ fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
     }
     table.imports = imports;
     Ok(table)
-}
-
-/// A path without `.` and, as far as that is possible, without `..`.
-fn plain(path: &Path) -> PathBuf {
-    let mut out = PathBuf::new();
-    for part in path.components() {
-        match part {
-            Component::CurDir => {}
-            Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {
-                out.pop();
-            }
-            part => out.push(part),
-        }
-    }
-    out
 }

@@ -6,7 +6,7 @@
 //! a new one gets those that the user's umask gives to new files.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -137,7 +137,12 @@ pub(crate) fn unwritable(path: &Path, error: &io::Error) -> Failure {
 
 /// Reads a UTF-8 file of bounded size, with errors that say what to do.
 pub(crate) fn read_text(path: &Path, max: u64) -> Result<String, Failure> {
-    String::from_utf8(read_bytes(path, max)?).map_err(|e| unreadable(path, &not_utf8(&e), "save it as UTF-8"))
+    utf8(path, read_bytes(path, max)?)
+}
+
+/// The text that the bytes of a file are.
+pub(crate) fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, Failure> {
+    String::from_utf8(bytes).map_err(|e| unreadable(path, &not_utf8(&e), "save it as UTF-8"))
 }
 
 /// Reads a file of bounded size, with errors that say what to do.
@@ -145,14 +150,56 @@ pub(crate) fn read_bytes(path: &Path, max: u64) -> Result<Vec<u8>, Failure> {
     let io = |e: io::Error| {
         unreadable(path, &format!("cannot be read: {}", io_reason(&e)), "check the path and its permissions")
     };
-    let metadata = fs::metadata(path).map_err(io)?;
+    let metadata = match fs::metadata(path) {
+        Err(error) if is_circular(path, &error) => {
+            return Err(unreadable(path, "is a link that leads in a circle", "mend the link"));
+        }
+        metadata => metadata.map_err(io)?,
+    };
     if metadata.is_dir() {
         return Err(unreadable(path, "is a directory, a file was expected", "name the file itself"));
     }
-    if metadata.len() > max {
+    // Reading a pipe may never begin, reading a device never end.
+    if !metadata.is_file() {
+        return Err(unreadable(
+            path,
+            "is a device or a pipe, a file was expected",
+            "copy what it delivers into a file",
+        ));
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(io)?;
+    // The size that a file system tells need not be true.
+    file.take(max + 1).read_to_end(&mut bytes).map_err(io)?;
+    if bytes.len() as u64 > max {
         return Err(unreadable(path, &format!("is larger than {} MiB", max >> 20), "split it"));
     }
-    fs::read(path).map_err(io)
+    Ok(bytes)
+}
+
+/// Reads standard input to its end, which comes within a size.
+#[cfg(feature = "cli")]
+pub(crate) fn read_stdin(max: u64) -> Result<Vec<u8>, Failure> {
+    let mut bytes = Vec::new();
+    let fail = |message: &str, help: &str| unreadable(Path::new(STDIN), message, help);
+    let read = io::stdin().lock().take(max + 1).read_to_end(&mut bytes);
+    read.map_err(|e| fail(&format!("cannot be read: {}", io_reason(&e)), "pipe something into the command"))?;
+    if bytes.len() as u64 > max {
+        return Err(fail(&format!("is larger than {} MiB", max >> 20), "split it"));
+    }
+    Ok(bytes)
+}
+
+/// The name of standard input in messages.
+#[cfg(feature = "cli")]
+pub(crate) const STDIN: &str = "standard input";
+
+/// Returns whether a path cannot be followed because its links have no end.
+fn is_circular(path: &Path, error: &io::Error) -> bool {
+    use io::ErrorKind;
+    // There is no stable name for this kind of error.
+    let named = [ErrorKind::NotFound, ErrorKind::PermissionDenied, ErrorKind::NotADirectory].contains(&error.kind());
+    !named && fs::symlink_metadata(path).is_ok_and(|metadata| metadata.is_symlink())
 }
 
 /// The failure to read a path, with what helps.
@@ -161,7 +208,7 @@ pub(crate) fn unreadable(path: &Path, message: &str, help: &str) -> Failure {
 }
 
 /// Says that bytes are not text, and where.
-pub(crate) fn not_utf8(error: &std::string::FromUtf8Error) -> String {
+fn not_utf8(error: &std::string::FromUtf8Error) -> String {
     let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
     let (line, column) = Source::new("", String::from_utf8_lossy(good)).line_column(good.len());
     format!("is not UTF-8 text at line {line}, column {column}")

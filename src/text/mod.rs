@@ -5,4 +5,5 @@
 pub(crate) mod closest;
 pub mod file;
 pub(crate) mod raw;
+pub mod reach;
 pub(crate) mod tokens;

@@ -14,7 +14,7 @@ use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::eval;
 use crate::program::{Domain, Input, InputId, Program, Value};
 use crate::text::closest::nearest;
-use crate::text::file::{io_reason, not_utf8, read_text, shown};
+use crate::text::file::{STDIN, read_stdin, read_text, shown, utf8};
 
 /// Rows that are read and evaluated together.
 pub(super) const CHUNK: usize = 1 << 16;
@@ -192,8 +192,6 @@ pub(super) fn read_all(program: &Program, path: &Path) -> Result<eval::Columns<f
     }
 }
 
-const STDIN: &str = "standard input";
-
 /// Whether a file is named `….extension`.
 pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
@@ -210,19 +208,12 @@ pub(super) fn read(program: &Program, path: &Path) -> Result<Rows, Failure> {
         }
         return text(Source::new(name, read_text(path, MAX_BYTES)?));
     }
-    let fail =
-        |message: String, help: &str| Failure::bare(STDIN, Diagnostic::error(codes::UNREADABLE, message).help(help));
-    let mut bytes = Vec::new();
-    std::io::Read::read_to_end(&mut std::io::stdin().lock(), &mut bytes)
-        .map_err(|e| fail(format!("cannot be read: {}", io_reason(&e)), "pipe the rows into the command"))?;
+    let bytes = read_stdin(MAX_BYTES)?;
     if capture::is_capture(&bytes) {
         let capture = capture::parse(program, &bytes).map_err(|error| Failure::bare(STDIN, error))?;
         return Ok(Rows { source: Source::new(STDIN, ""), capture: Some(capture) });
     }
-    match String::from_utf8(bytes) {
-        Ok(bytes) => text(Source::new(STDIN, bytes)),
-        Err(error) => Err(fail(not_utf8(&error), "save it as UTF-8")),
-    }
+    text(Source::new(STDIN, utf8(Path::new(STDIN), bytes)?))
 }
 
 /// The input that a column is for.

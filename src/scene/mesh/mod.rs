@@ -12,13 +12,14 @@ mod polygon;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 
 use super::shapes::solid::Triangle;
 use crate::diag::{Diagnostic, codes};
 use crate::text::file::{read_bytes, shown};
+use crate::text::reach::{OutOfReach, beside};
 
 /// Most triangles of a mesh.
 const MAX_TRIANGLES: usize = 20_000_000;
@@ -44,11 +45,18 @@ impl Broken {
     }
 }
 
-/// Reads a mesh. Its kind is told by the file's name.
-pub(super) fn read(path: &Path) -> std::result::Result<Vec<Triangle>, Diagnostic> {
-    triangles(path).map_err(|broken| {
-        Diagnostic::error(codes::MESH, format!("the mesh `{}` {}", shown(path), broken.what)).help(broken.help)
+/// Reads a mesh that a scene in a directory names. Its kind is told by the file's name.
+pub(super) fn read(directory: &Path, name: &str) -> std::result::Result<Vec<Triangle>, Diagnostic> {
+    let path = named(directory, name);
+    path.and_then(|path| triangles(&path)).map_err(|broken| {
+        let shown = shown(&directory.join(name));
+        Diagnostic::error(codes::MESH, format!("the mesh `{shown}` {}", broken.what)).help(broken.help)
     })
+}
+
+/// The path of a file that a scene or mesh in a directory names.
+fn named(directory: &Path, name: &str) -> Result<PathBuf> {
+    beside(directory, name).map_err(|OutOfReach| Broken::new(OutOfReach::WHAT, OutOfReach::HELP))
 }
 
 fn triangles(path: &Path) -> Result<Vec<Triangle>> {

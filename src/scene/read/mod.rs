@@ -332,7 +332,7 @@ impl<'a> Read<'a> {
     fn mesh(&self, file: Raw<'a>, size: Option<f64>) -> Result<Vec<Triangle>> {
         let name: String = self.reader.get(file)?;
         let triangles =
-            mesh::read(&self.directory.join(&name)).map_err(|error| error.at(self.reader.span(file), "named here"))?;
+            mesh::read(self.directory, &name).map_err(|error| error.at(self.reader.span(file), "named here"))?;
         let Some(size) = size else { return Ok(triangles) };
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let corners = triangles.iter().flat_map(|triangle| triangle.corners);

@@ -7,7 +7,7 @@ use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 
 use super::broken;
 use super::document::Document;
-use crate::scene::mesh::{Broken, MAX_BYTES, Result, bytes};
+use crate::scene::mesh::{Broken, MAX_BYTES, Result, bytes, named};
 
 /// Base64, with or without the characters that fill it up.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -85,7 +85,7 @@ fn resolve(uri: &str, directory: &Path, most: u64) -> Result<Vec<u8>> {
         return Err(Broken::new(format!("has a buffer at `{shown}`, which is no file"), help));
     }
     let name = String::from_utf8(decoded(uri)).map_err(|_| broken(format!("names a buffer `{shown}` not in UTF-8")))?;
-    bytes(&directory.join(&name), most).map_err(|reason| {
+    named(directory, &name).and_then(|path| bytes(&path, most)).map_err(|reason| {
         let what = format!("names the buffer `{}`, which {}", name.escape_debug(), reason.what);
         Broken { what, ..reason }
     })
