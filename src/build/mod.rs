@@ -2,8 +2,8 @@
 //! build script calls.
 //!
 //! Everything is made in memory first. Files are written only when every table
-//! of the run was checked, proved, emitted and validated, each through a
-//! temporary file beside its place, so that a failure leaves nothing behind.
+//! of the run was checked, proved, emitted and validated, and all of them appear
+//! together, so that a failure leaves nothing behind.
 
 mod batch;
 mod evidence;
@@ -11,7 +11,6 @@ mod stamp;
 mod tables;
 
 use std::collections::BTreeMap;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::diag::{Diagnostic, Failure, codes};
@@ -19,7 +18,7 @@ use crate::emit::{self, SiblingFile, Target};
 use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::Program;
 use crate::prove::{Proof, is_unsuitable};
-use crate::text::file::{PendingFile, io_reason, shown, unwritable};
+use crate::text::file::{Home, PendingFile, io_reason, read_bytes, shown, unwritable};
 use crate::tuned::{Auto, Tuned};
 
 pub use batch::{Batch, Request, run};
@@ -242,26 +241,26 @@ pub fn find_tables(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
-/// Writes files below a directory, all or none as far as the file system
-/// allows, and leaves alone those that already say the same. Returns how many
+/// Writes files below a directory, all or none, and leaves alone those that already say the same. Returns how many
 /// were written.
 ///
 /// # Errors
 /// When a directory or file cannot be written; the message names it.
 pub fn write(directory: &Path, files: &[Artifact]) -> Result<usize, Failure> {
+    std::fs::create_dir_all(directory).map_err(|error| unwritable(directory, &error))?;
+    let home = Home::lock(directory)?;
     let mut pending = Vec::new();
     for file in files {
         let path = directory.join(&file.path);
-        if std::fs::read(&path).is_ok_and(|old| old == file.contents) {
+        let most = file.contents.len() as u64;
+        if read_bytes(&path, most).is_ok_and(|old| old == file.contents) {
             continue;
         }
         let parent = path.parent().unwrap_or(directory);
         std::fs::create_dir_all(parent).map_err(|error| unwritable(parent, &error))?;
-        let mut new = PendingFile::create(&path)?;
-        new.write_all(&file.contents).map_err(|error| unwritable(&path, &error))?;
-        pending.push(new);
+        pending.push(PendingFile::whole(&path, file.contents.clone())?);
     }
     let count = pending.len();
-    pending.into_iter().try_for_each(PendingFile::commit)?;
+    home.commit(pending)?;
     Ok(count)
 }

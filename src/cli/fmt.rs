@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::messages::{Format, Report};
-use super::output::Sink;
+use super::output::{Sink, finish_all};
 use super::{Outcome, Result};
 use crate::build;
 use crate::diag::{Failure, Source};
@@ -87,14 +87,15 @@ fn show(done: &[Formatted], report: &Report) -> Result<Outcome> {
 
 /// Replaces the tables that change.
 fn write(done: &[Formatted], report: &Report) -> Result<Outcome> {
-    let mut sinks = Vec::new();
+    let (mut changed, mut sinks) = (Vec::new(), Vec::new());
     for table in done.iter().filter(|table| table.path.as_os_str() == "-" || table.before.text != table.after) {
-        let mut sink = Sink::create(&table.path)?;
+        let mut sink = Sink::replace(&table.path)?;
         sink.write_all(table.after.as_bytes())?;
-        sinks.push((table, sink));
+        changed.push(table);
+        sinks.push(sink);
     }
-    for (table, sink) in sinks {
-        sink.finish()?;
+    finish_all(sinks)?;
+    for table in changed {
         if report.format == Format::Human && table.path.as_os_str() != "-" {
             writeln!(io::stdout(), "formatted {}", table.before.name)?;
         }

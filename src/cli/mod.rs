@@ -47,6 +47,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::Target;
 use crate::plan::Shape;
 use crate::show::Precision;
+use crate::text::file::{STDOUT, io_reason};
 use crate::text::reach;
 use messages::{Color, Format, Report};
 
@@ -148,7 +149,7 @@ impl From<Failure> for Error {
 
 impl From<io::Error> for Error {
     fn from(error: io::Error) -> Self {
-        Error::Stdout(error)
+        error.downcast().map_or_else(Error::Stdout, Error::Failure)
     }
 }
 
@@ -225,8 +226,8 @@ pub fn main() -> ExitCode {
         // The reader of the output has seen enough.
         Err(Error::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(Error::Stdout(error)) => {
-            let message = format!("cannot be written: {}", crate::text::file::io_reason(&error));
-            report.failure(&Failure::bare("standard output", Diagnostic::error(codes::UNWRITABLE, message)));
+            let message = format!("cannot be written: {}", io_reason(&error));
+            report.failure(&Failure::bare(STDOUT, Diagnostic::error(codes::UNWRITABLE, message)));
             ExitCode::from(2)
         }
     }

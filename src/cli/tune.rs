@@ -3,7 +3,7 @@
 mod whole;
 
 use std::io::{self, IsTerminal, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -12,18 +12,18 @@ use serde_json::json;
 
 use super::args::{parse_map, parse_size};
 use super::messages::{Format, Report};
-use super::output::Sink;
+use super::output::{Sink, finish_in};
 use super::{Outcome, Result, input, parse_shape, profile};
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::Failure;
 use crate::gpu::timing::{Clock, Protocol};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::plan::Shape;
 use crate::profile::fit;
 use crate::program::Program;
 use crate::technique::Executor;
-use crate::text::file::shown;
+use crate::text::file::{Home, shown, unwritable};
 use crate::tune::{self, Kind, Options, Tuning};
-use crate::tuned::Tuned;
+use crate::tuned::{Choice, Tuned};
 
 /// Arguments of `umbrage tune`.
 #[derive(clap::Args)]
@@ -130,7 +130,9 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     let gpu = Arc::new(Gpu::open(&arguments.adapter)?);
     let path = Tuned::path(&arguments.output, gpu.name());
-    let kept = Tuned::read(&path)?.unwrap_or_else(|| Tuned::new(gpu.name()));
+    // A file that cannot be read or written is found before anything takes time.
+    Tuned::read(&path)?;
+    let page = arguments.report.as_deref().map(Sink::create).transpose()?;
     let bar = progress();
     let result = tune::tune(&program, fitted, &weights, frames.as_ref(), &gpu, &options, |doing| {
         bar.set_message(doing.to_owned());
@@ -145,19 +147,12 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     bar.finish_and_clear();
     let tuning = result?;
 
-    // Both files are complete before either is visible; whatever interrupts leaves the old ones.
-    let mut tuned = kept;
-    tuned.set(tuning.choice(&program, &weights));
-    std::fs::create_dir_all(&arguments.output).map_err(|error| {
-        let message = format!("cannot be made: {}", crate::text::file::io_reason(&error));
-        let error = Diagnostic::error(codes::UNWRITABLE, message).help("choose another directory with `--output`");
-        Failure::bare(shown(&arguments.output), error)
-    })?;
-    let mut sink = Sink::create(&path)?;
-    sink.write_all(tuned.to_ron().as_bytes()).map_err(|error| sink.failure(&error))?;
-    let page = arguments.report.as_ref().map(|path| page(&program, &tuning, &weights, path)).transpose()?;
-    sink.finish()?;
-    page.map_or(Ok(()), Sink::finish)?;
+    let mut sinks = Vec::new();
+    if let Some(mut page) = page {
+        page.write_all(tune::page(&program, &tuning, &weights).as_bytes())?;
+        sinks.push(page);
+    }
+    keep(&arguments.output, &path, tuning.choice(&program, &weights), gpu.name(), sinks)?;
 
     match report.format {
         Format::Human => human(&tuning, &path)?,
@@ -181,19 +176,21 @@ fn progress() -> ProgressBar {
     bar
 }
 
-fn page(
-    program: &Program,
-    tuning: &Tuning<'_>,
-    weights: &crate::plan::Weights,
-    path: &std::path::Path,
-) -> std::result::Result<Sink, Failure> {
-    let mut sink = Sink::create(path)?;
-    let text = tune::page(program, tuning, weights);
-    sink.write_all(text.as_bytes()).map_err(|error| sink.failure(&error))?;
-    Ok(sink)
+/// Puts a choice into the file of a device, which appears together with other results.
+///
+/// The file is read again: another run may have put a choice into it since. Until it is written no other run does.
+fn keep(directory: &Path, path: &Path, choice: Choice, device: &str, mut sinks: Vec<Sink>) -> Result<()> {
+    std::fs::create_dir_all(directory).map_err(|error| unwritable(directory, &error))?;
+    let home = Home::lock(directory)?;
+    let mut tuned = Tuned::read(path)?.unwrap_or_else(|| Tuned::new(device));
+    tuned.set(choice);
+    let mut sink = Sink::replace(path)?;
+    sink.write_all(tuned.to_ron().as_bytes())?;
+    sinks.push(sink);
+    finish_in(&home, sinks)
 }
 
-fn human(tuning: &Tuning<'_>, path: &std::path::Path) -> Result<()> {
+fn human(tuning: &Tuning<'_>, path: &Path) -> Result<()> {
     let mut out = io::stdout().lock();
     writeln!(out, "device: {}", tuning.device)?;
     writeln!(out, "measured with {}", tuning.method())?;

@@ -16,3 +16,4 @@ mod tables;
 mod tools;
 mod why;
 mod worked_values;
+mod writing;

@@ -294,3 +294,29 @@ fn an_interrupted_tuning_leaves_the_old_choice() {
     assert_eq!(std::fs::read_to_string(&file).unwrap(), old);
     assert_eq!(std::fs::read_dir(place.path("tuned")).unwrap().count(), 1);
 }
+
+#[test]
+fn tunings_at_once_keep_all_choices() {
+    let place = place();
+    let quick = "--rows 256 --rounds 2 --plan ladder";
+    let names = ["one", "two", "three", "four"];
+    let children: Vec<_> = names
+        .iter()
+        .map(|name| {
+            let renamed = place.read("smsr.ron").replace("name: \"smsr\"", &format!("name: \"{name}\""));
+            place.file(&format!("{name}.ron"), renamed);
+            let said = place.run(&format!("profile --table {name}.ron --frames fence.csv -o {name}.profile"));
+            assert_eq!(said.code, Some(0), "{}", said.all());
+            let tune = format!("tune {name}.ron --profile {name}.profile {quick}");
+            let mut command = Command::new(env!("CARGO_BIN_EXE_umbrage"));
+            command.args(tune.split(' ')).current_dir(place.path(".")).stdout(Stdio::null()).spawn().unwrap()
+        })
+        .collect();
+    for mut child in children {
+        assert!(child.wait().unwrap().success());
+    }
+    let files: Vec<_> = std::fs::read_dir(place.path("tuned")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+    let kept = std::fs::read_to_string(&files[0]).unwrap();
+    assert!(names.iter().all(|name| kept.contains(&format!("table: \"{name}\""))), "{kept}");
+}

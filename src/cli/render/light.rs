@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::cli::args::{Backend, Machine};
 use crate::cli::messages::Report;
-use crate::cli::output::Sink;
+use crate::cli::output::{Sink, finish_all};
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture::plot;
@@ -99,10 +99,12 @@ impl Executor<'_> {
 
 /// Makes everything that was asked for, then writes it.
 pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let picture_sink = Sink::create(&arguments.output)?;
-    let reference_sink = arguments.reference.as_deref().map(Sink::create).transpose()?;
-    let cells_sink = arguments.cells.as_deref().map(Sink::create).transpose()?;
-    let plot_sink = arguments.plot.as_deref().map(Sink::create).transpose()?;
+    let [picture_sink, reference_sink, cells_sink, plot_sink] = Sink::several([
+        Some(&*arguments.output),
+        arguments.reference.as_deref(),
+        arguments.cells.as_deref(),
+        arguments.plot.as_deref(),
+    ])?;
 
     let world = Scene::open(&arguments.scene)?;
     let scene = Surroundings::new(&world)?;
@@ -123,7 +125,13 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
 
     let (width, height) = arguments.size;
     let settings = Settings::with_threshold(arguments.threshold);
-    let mut files: Vec<(Sink, Vec<u8>)> = Vec::new();
+    let mut sinks = Vec::new();
+    let mut put = |sink: Option<Sink>, bytes: &[u8]| -> Result<()> {
+        let Some(mut sink) = sink else { return Ok(()) };
+        sink.write_all(bytes)?;
+        sinks.push(sink);
+        Ok(())
+    };
     let start = Instant::now();
     let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, width, height));
     let shaded = executor.shade(&scene, &settings, &surfaces)?;
@@ -131,12 +139,10 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
     let (cells, edges) = means(&shaded);
     say += &format!("{width} x {height} pixels in {seconds:.2} s, {place}, threshold {}\n", arguments.threshold);
     say += &format!("per pixel that shows a surface: {cells:.1} cells, {edges:.1} edges\n");
-    files.push((
-        picture_sink,
-        png(&arguments.output, &picture::developed(width, height, &shaded.light, world.background))?,
-    ));
+    let developed = picture::developed(width, height, &shaded.light, world.background);
+    put(picture_sink, &png(&arguments.output, &developed)?)?;
 
-    if let (Some(path), Some(sink)) = (&arguments.reference, reference_sink) {
+    if let Some(path) = &arguments.reference {
         let start = Instant::now();
         let exact = reference(&scene, &surfaces, FINENESS);
         say += &format!(
@@ -145,22 +151,19 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
             start.elapsed().as_secs_f64(),
             100.0 * difference(&shaded.light, &exact)
         );
-        files.push((sink, png(path, &picture::developed(width, height, &exact, world.background))?));
+        put(reference_sink, &png(path, &picture::developed(width, height, &exact, world.background))?)?;
     }
-    if let (Some(path), Some(sink)) = (&arguments.cells, cells_sink) {
+    if let Some(path) = &arguments.cells {
         let most = shaded.cells.iter().copied().max().unwrap_or(0);
         say += &format!("cells: white is {most}\n");
-        files.push((sink, png(path, &picture::counted(width, height, &shaded.cells, most))?));
+        put(cells_sink, &png(path, &picture::counted(width, height, &shaded.cells, most))?)?;
     }
-    if let Some(sink) = plot_sink {
+    if plot_sink.is_some() {
         let (width, height) = PLOTTED;
         let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, width, height));
-        files.push((sink, trade_off(&scene, &surfaces, &executor)?.into_bytes()));
+        put(plot_sink, trade_off(&scene, &surfaces, &executor)?.as_bytes())?;
     }
-    for (mut sink, bytes) in files {
-        sink.write_all(&bytes)?;
-        sink.finish()?;
-    }
+    finish_all(sinks)?;
     let mut out = io::stdout().lock();
     out.write_all(say.as_bytes())?;
     out.flush()?;

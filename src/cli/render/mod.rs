@@ -14,7 +14,7 @@ use serde_json::json;
 use super::args::{Backend, Machine, SettingArguments, TechniqueArgument, parse_map, parse_size, technique_parser};
 use super::input::has_extension;
 use super::messages::{Format, Report};
-use super::output::Sink;
+use super::output::{Sink, finish_all};
 use super::progress::Progress;
 use super::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
@@ -79,8 +79,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let settings = arguments.settings.read(&techniques, Some(arguments.shadow_map))?;
     let scene = Scene::open(&arguments.scene)?;
     // Places that cannot be written are found before the work is done.
-    let picture_sink = arguments.output.as_deref().map(Sink::create).transpose()?;
-    let capture_sink = arguments.capture.as_deref().map(Sink::create).transpose()?;
+    let [picture_sink, capture_sink] = Sink::several([arguments.output.as_deref(), arguments.capture.as_deref()])?;
     let needs_device = techniques.iter().any(|technique| technique.needs_device());
     let executor = if needs_device { arguments.machine.executor(Backend::Auto, report)? } else { Executor::Cpu };
 
@@ -102,16 +101,17 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     drop(progress);
 
+    let mut sinks = Vec::new();
     if let Some(mut sink) = picture_sink {
-        let bytes = draw(arguments, &frame, &answers)?;
-        sink.write_all(&bytes).map_err(|error| sink.failure(&error))?;
-        sink.finish()?;
+        sink.write_all(&draw(arguments, &frame, &answers)?)?;
+        sinks.push(sink);
     }
     if let (Some(mut sink), Some(inputs)) = (capture_sink, captured) {
         let as_csv = arguments.capture.as_deref().is_some_and(|path| has_extension(path, "csv"));
-        capture::write(&inputs, as_csv, &mut sink).map_err(|error| sink.failure(&error))?;
-        sink.finish()?;
+        capture::write(&inputs, as_csv, &mut sink)?;
+        sinks.push(sink);
     }
+    finish_all(sinks)?;
     if arguments.stats {
         for answer in &answers {
             stats(report, &frame, answer)?;

@@ -10,7 +10,7 @@ use crate::cli::args::{
 };
 use crate::cli::input::has_extension;
 use crate::cli::messages::{Format, Report};
-use crate::cli::output::Sink;
+use crate::cli::output::{Sink, finish_all};
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
@@ -77,23 +77,24 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         arguments.scenes.iter().map(|name| open(name)).collect()
     };
     let scenes = scenes?;
-    let json_sink = arguments.json.as_deref().map(Sink::create).transpose()?;
-    let plot_sink = arguments.plot.as_deref().map(Sink::create).transpose()?;
+    let [json_sink, plot_sink] = Sink::several([arguments.json.as_deref(), arguments.plot.as_deref()])?;
     let executor = arguments.machine.executor(Backend::Auto, report)?;
     let rows = measure(arguments, &techniques, &scenes, &executor)?;
 
     let object = || json(arguments, &executor, &rows);
+    let mut sinks = Vec::new();
     if let Some(mut sink) = json_sink {
-        writeln!(sink, "{:#}", object()).map_err(|error| sink.failure(&error))?;
-        sink.finish()?;
+        writeln!(sink, "{:#}", object())?;
+        sinks.push(sink);
     }
     if let Some(mut sink) = plot_sink {
         let svg = draw(arguments, &techniques, &scenes, &rows);
         let as_png = arguments.plot.as_deref().is_some_and(|path| has_extension(path, "png"));
         let bytes = if as_png { picture::png(&picture::raster(&svg, 1.0)?)? } else { svg.into_bytes() };
-        sink.write_all(&bytes).map_err(|error| sink.failure(&error))?;
-        sink.finish()?;
+        sink.write_all(&bytes)?;
+        sinks.push(sink);
     }
+    finish_all(sinks)?;
     let mut out = io::stdout().lock();
     match report.format {
         Format::Json => writeln!(out, "{}", object())?,

@@ -1,17 +1,25 @@
 //! Files: reading them within bounds, and writing them all or nothing.
 //!
-//! A file appears, or is replaced, only once everything that belongs into it
-//! was computed and written. Until then it is a temporary file beside it, which
-//! vanishes if something goes wrong. A file that existed keeps its permissions;
-//! a new one gets those that the user's umask gives to new files.
+//! A file appears, or is replaced, only once everything was computed and written that
+//! belongs into it, or into a file that appears together with it. A file that existed
+//! keeps its permissions; a new one gets those that the user's umask gives to new files.
 
+mod home;
+mod pending;
+
+use std::collections::BTreeSet;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-
-use tempfile::NamedTempFile;
+use std::sync::Mutex;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
+
+pub(crate) use home::{Home, commit};
+pub(crate) use pending::PendingFile;
+
+/// The files that this process has read: what they say must not be replaced unasked.
+static READ: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Writes a file, all or nothing.
 ///
@@ -26,102 +34,12 @@ use crate::diag::{Diagnostic, Failure, Source, codes};
 /// # Errors
 /// When the file cannot be written, with the reason and what helps.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let mut file = PendingFile::create(path)?;
-    file.write_all(bytes).map_err(|error| unwritable(path, &error))?;
-    file.commit()
+    commit(vec![PendingFile::whole(path, bytes.to_vec())?])
 }
 
 /// A path as messages show it: the same on every platform.
 pub fn shown(path: &Path) -> String {
     path.to_string_lossy().replace('\\', "/")
-}
-
-/// A file that is being written, and is not visible yet.
-pub(crate) struct PendingFile {
-    /// The path as the caller named it.
-    path: PathBuf,
-    place: Place,
-}
-
-enum Place {
-    /// A temporary file, and the file that it becomes.
-    File(BufWriter<NamedTempFile>, PathBuf),
-    /// A device or pipe, which cannot be replaced; written at the end.
-    Special(Vec<u8>),
-}
-
-impl PendingFile {
-    /// Prepares to write to a path.
-    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        if path.is_dir() {
-            let error = Diagnostic::error(codes::UNWRITABLE, "is a directory, a file was expected");
-            return Err(Failure::bare(shown(path), error.help("name a file in it")));
-        }
-        // The file that a link leads to is replaced, not the link.
-        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let path = path.to_owned();
-        if fs::metadata(&target).is_ok_and(|m| !m.is_file()) {
-            return Ok(Self { path, place: Place::Special(Vec::new()) });
-        }
-        let directory = target.parent().filter(|d| !d.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".umbrage-");
-        // A temporary file is private by default; this one is to become an ordinary file.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        match builder.tempfile_in(directory) {
-            Ok(file) => Ok(Self { path, place: Place::File(BufWriter::new(file), target) }),
-            Err(error) => Err(unwritable(&path, &error)),
-        }
-    }
-
-    /// The path as the caller named it.
-    #[cfg(feature = "cli")]
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
-    /// Makes what was written visible.
-    pub(crate) fn commit(self) -> Result<(), Failure> {
-        let Self { path, place } = self;
-        let written = match place {
-            Place::Special(bytes) => {
-                let written = File::options().write(true).open(&path).and_then(|mut file| file.write_all(&bytes));
-                match written {
-                    // The reader of a pipe may have seen enough.
-                    Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-                    written => written,
-                }
-            }
-            Place::File(writer, target) => replace(writer, &target),
-        };
-        written.map_err(|error| unwritable(&path, &error))
-    }
-}
-
-fn replace(writer: BufWriter<NamedTempFile>, target: &Path) -> io::Result<()> {
-    let file = writer.into_inner().map_err(io::IntoInnerError::into_error)?;
-    if let Ok(old) = fs::metadata(target) {
-        file.as_file().set_permissions(old.permissions())?;
-    }
-    file.persist(target).map_err(|error| error.error)?;
-    Ok(())
-}
-
-impl Write for PendingFile {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.place {
-            Place::File(file, _) => file.write(bytes),
-            Place::Special(buffer) => buffer.write(bytes),
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        match &mut self.place {
-            Place::File(file, _) => file.flush(),
-            Place::Special(_) => Ok(()),
-        }
-    }
 }
 
 /// The failure to write to a path.
@@ -174,7 +92,16 @@ pub(crate) fn read_bytes(path: &Path, max: u64) -> Result<Vec<u8>, Failure> {
     if bytes.len() as u64 > max {
         return Err(unreadable(path, &format!("is larger than {} MiB", max >> 20), "split it"));
     }
+    if let (Ok(mut read), Ok(path)) = (READ.lock(), fs::canonicalize(path)) {
+        read.insert(path);
+    }
     Ok(bytes)
+}
+
+/// Returns whether this process has read a file, given by its path without links.
+#[cfg(feature = "cli")]
+pub(crate) fn was_read(path: &Path) -> bool {
+    READ.lock().is_ok_and(|read| read.contains(path))
 }
 
 /// Reads standard input to its end, which comes within a size.
@@ -189,6 +116,10 @@ pub(crate) fn read_stdin(max: u64) -> Result<Vec<u8>, Failure> {
     }
     Ok(bytes)
 }
+
+/// The name of standard output in messages.
+#[cfg(feature = "cli")]
+pub(crate) const STDOUT: &str = "standard output";
 
 /// The name of standard input in messages.
 #[cfg(feature = "cli")]
