@@ -18,6 +18,7 @@ pub(crate) struct PendingFile {
 
 enum Place {
     /// A file without a name, and the file that its contents go to.
+    #[cfg_attr(not(feature = "cli"), expect(dead_code, reason = "only commands write what comes bit by bit"))]
     File(BufWriter<File>, PathBuf),
     /// The contents, and the file that they go to.
     Whole(Vec<u8>, PathBuf),
@@ -27,6 +28,7 @@ enum Place {
 
 impl PendingFile {
     /// Prepares to write to a path.
+    #[cfg_attr(not(feature = "cli"), expect(dead_code, reason = "only commands write what comes bit by bit"))]
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
         let place = match target(path)? {
             None => Place::Special(Vec::new()),
