@@ -4,6 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::values::Scale;
 use super::{Atlas, PANEL_WIDTH, cell, panel, text};
+use crate::diag::visible;
 use crate::picture;
 use crate::program::Program;
 use crate::table::HitPolicy;
@@ -37,7 +38,7 @@ pub(super) fn document(width: i32, height: i32, body: &str) -> String {
             (PreEscaped(body))
         }
     };
-    markup.into_string() + "\n"
+    visible(&markup.into_string()).into_owned() + "\n"
 }
 
 /// The whole atlas as one drawing: the legend, then the panels in rows.

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Batch, Options, Request, run, stamp, write};
 use crate::analyse::LintLevel;
-use crate::diag::{Diagnostic, Failure, Severity, codes};
+use crate::diag::{Diagnostic, Failure, Severity, codes, visible};
 use crate::emit::Target;
 use crate::plan::Shape;
 use crate::text::reach;
@@ -246,7 +246,7 @@ fn warnings(batch: &Batch) -> Vec<String> {
 }
 
 fn warn(warning: &str) {
-    println!("cargo::warning={warning}");
+    println!("cargo::warning={}", visible(warning));
 }
 
 fn watch(path: &Path) {

@@ -1,7 +1,7 @@
 //! `umbrage build`: tables to generated files.
 
 use std::collections::BTreeSet;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use super::messages::{Format, Report, plural};
@@ -9,6 +9,7 @@ use super::plan::{self, PlanArgument};
 use super::watch::Watched;
 use super::{Error, Outcome, Result, levels, parse_target};
 use crate::build::{self, Built, Options, Request};
+use crate::cli::output::stdout;
 use crate::emit::Target;
 use crate::program::Program;
 
@@ -70,7 +71,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
             done => done?,
         };
         if report.format == Format::Human {
-            let mut out = io::stdout().lock();
+            let mut out = stdout();
             let kept = if outcome == Outcome::Failed { "what was generated before stays; " } else { "" };
             writeln!(out, "{kept}waiting for changes (Ctrl+C ends this)")?;
             out.flush()?;
@@ -125,7 +126,7 @@ fn summary(
     written: usize,
     arguments: &Arguments,
 ) -> Result<()> {
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     for (programs, built) in done {
         let Some(program) = programs.first() else { continue };
         if program.function.is_some() {

@@ -1,6 +1,6 @@
 //! `umbrage check`: tables, their findings and their examples.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::messages;
@@ -8,6 +8,7 @@ use super::messages::{Format, Report, plural};
 use super::{Outcome, Result, levels};
 use crate::analyse::{self, LintLevels};
 use crate::build;
+use crate::cli::output::stdout;
 use crate::diag::{Failure, Severity};
 use crate::program::Program;
 
@@ -23,7 +24,7 @@ pub(super) struct Arguments {
 
 /// Checks every table; a bad one does not keep the others from being checked.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     let mut outcome = Outcome::Clean;
     let levels = arguments.levels.levels();
     for path in &arguments.paths {

@@ -10,6 +10,7 @@ use super::messages::{Format, Report};
 use super::plan::{self, PlanArgument};
 use super::{Outcome, Result, input};
 use crate::build;
+use crate::cli::output::stdout;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff::{self, Options};
 use crate::gpu::{AdapterChoice, Gpu};
@@ -97,7 +98,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         }
     };
     let gpu = Gpu::open(&arguments.adapter)?;
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     if report.format == Format::Human {
         writeln!(out, "adapter: {}", gpu.describe())?;
     }

@@ -1,6 +1,6 @@
 //! `umbrage explain`: why a table has the value it has at one point, or what a code means.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -9,6 +9,7 @@ use serde_json::{Map, Value as Json, json};
 use super::input;
 use super::messages::{Format, Report};
 use super::{Outcome, PrecisionArgument, Result};
+use crate::cli::output::stdout;
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::explain::{self, Explanation, Needed, Tested, code, text};
 use crate::program::{InputId, Program, Value};
@@ -48,7 +49,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         Format::Human => text::render(&program, &explanation, &assumed),
         Format::Json => format!("{}\n", object(&program, &explanation, &assumed)),
     };
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     out.write_all(text.as_bytes())?;
     out.flush()?;
     Ok(Outcome::Clean)
@@ -67,7 +68,7 @@ fn explain_code(word: &str, report: &Report) -> Result<Outcome> {
             format!("{}\n", json!({"code": entry.code, "meaning": entry.meaning, "text": entry.text}))
         }
     };
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     out.write_all(text.as_bytes())?;
     out.flush()?;
     Ok(Outcome::Clean)

@@ -1,11 +1,11 @@
 //! `umbrage fmt`: tables in the layout of this project.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::messages::{Format, Report};
-use super::output::{Sink, finish_all};
+use super::output::{Sink, finish_all, stdout};
 use super::{Outcome, Result};
 use crate::build;
 use crate::diag::{Failure, Source};
@@ -61,7 +61,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 
 /// Says which tables would change, and where they first would.
 fn show(done: &[Formatted], report: &Report) -> Result<Outcome> {
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     let changed = done.iter().filter(|table| table.before.text != table.after);
     let mut outcome = Outcome::Clean;
     for table in changed {
@@ -97,7 +97,7 @@ fn write(done: &[Formatted], report: &Report) -> Result<Outcome> {
     finish_all(sinks)?;
     for table in changed {
         if report.format == Format::Human && table.path.as_os_str() != "-" {
-            writeln!(io::stdout(), "formatted {}", table.before.name)?;
+            writeln!(stdout(), "formatted {}", table.before.name)?;
         }
     }
     Ok(Outcome::Clean)

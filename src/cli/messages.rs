@@ -7,7 +7,7 @@ use codespan_reporting::term::termcolor::{ColorChoice, StandardStream};
 use codespan_reporting::term::{Styles, StylesWriter};
 use serde_json::{Value, json};
 
-use crate::diag::{self, Diagnostic, Failure, Severity, Source};
+use crate::diag::{self, Diagnostic, Failure, Severity, Source, visible};
 
 /// When messages are coloured.
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -71,7 +71,7 @@ impl Report {
 
 /// Diagnostics as JSON, one object per line.
 pub(super) fn lines(source: &Source, diagnostics: &[Diagnostic]) -> String {
-    diagnostics.iter().map(|diagnostic| format!("{}\n", object(source, diagnostic))).collect()
+    diagnostics.iter().map(|diagnostic| format!("{}\n", visible(&object(source, diagnostic).to_string()))).collect()
 }
 
 /// Findings that a table acknowledges, as JSON, each with the reason that it gives.

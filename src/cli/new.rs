@@ -1,11 +1,12 @@
 //! `umbrage new`: a table to start from, and the build script that compiles it.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use super::messages::{Format, Report};
 use super::{Outcome, Result};
 use crate::build::{self, Artifact};
+use crate::cli::output::stdout;
 use crate::diag::{Diagnostic, Failure, Span, codes};
 use crate::table::names;
 use crate::text::file::shown;
@@ -62,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     build::write(&arguments.directory, &files)?;
     if report.format == Format::Human {
-        let mut out = io::stdout().lock();
+        let mut out = stdout();
         for file in &files {
             writeln!(out, "wrote {}", arguments.directory.join(&file.path).display())?;
         }

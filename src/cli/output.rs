@@ -1,11 +1,11 @@
 //! Results of commands: to files, all or none, or to standard output.
 
 use std::collections::BTreeSet;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, StdoutLock, Write};
 use std::path::Path;
 
 use super::Result;
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::{Diagnostic, Failure, codes, visible};
 #[cfg(feature = "gpu")]
 use crate::text::file::Home;
 use crate::text::file::{self, PendingFile, STDOUT, shown, unwritable};
@@ -142,10 +142,36 @@ fn finish(
         }
     }
     commit(files)?;
-    let mut out = io::stdout().lock();
+    // What another program reads is as it is; a terminal is shown no characters that act on it.
+    let mut out: Box<dyn Write> =
+        if io::stdout().is_terminal() { Box::new(stdout()) } else { Box::new(io::stdout().lock()) };
     out.write_all(&text)?;
     out.flush()?;
     Ok(())
+}
+
+/// Standard output for people, where texts of tables are visible and do nothing.
+pub(super) fn stdout() -> Visible<StdoutLock<'static>> {
+    Visible(io::stdout().lock())
+}
+
+/// Writes text in which characters that act are written out.
+pub(super) struct Visible<W>(W);
+
+impl<W: Write> Write for Visible<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        for chunk in bytes.utf8_chunks() {
+            self.0.write_all(visible(chunk.valid()).as_bytes())?;
+            if !chunk.invalid().is_empty() {
+                self.0.write_all("\u{fffd}".as_bytes())?;
+            }
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
 }
 
 impl Write for Sink {

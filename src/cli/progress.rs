@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::diag::visible;
+
 /// How long something may take without a word.
 const PATIENCE: Duration = Duration::from_secs(1);
 
@@ -26,7 +28,7 @@ impl Progress {
 
     /// Says what is being done now.
     pub(super) fn begin(&self, what: &str) {
-        self.bar.set_prefix(what.to_owned());
+        self.bar.set_prefix(visible(what).into_owned());
     }
 
     /// Some steps were taken.

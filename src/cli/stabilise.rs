@@ -1,13 +1,13 @@
 //! `umbrage stabilise`: a table whose formulas divide by zero, in a form that does not.
 
 use std::fmt::Write as _;
-use std::io::{self, Write as _};
+use std::io::Write as _;
 use std::path::PathBuf;
 
 use serde_json::json;
 
 use super::messages::{Format, Report};
-use super::output::Sink;
+use super::output::{Sink, stdout};
 use super::{Outcome, Result};
 use crate::stabilise::{self, Certificate, Measured, Stabilised};
 use crate::table::Table;
@@ -55,7 +55,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     sink.finish()?;
     if to_file || report.format == Format::Json {
-        let mut out = io::stdout().lock();
+        let mut out = stdout();
         write!(out, "{said}")?;
         out.flush()?;
     }

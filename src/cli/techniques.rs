@@ -1,16 +1,17 @@
 //! `umbrage techniques`: the techniques, with what they need and take.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use serde_json::json;
 
 use super::messages::{Format, Report};
 use super::{Outcome, Result};
+use crate::cli::output::stdout;
 use crate::technique::{self, Technique};
 
 /// Lists every technique with its tables, lights and settings.
 pub(super) fn run(report: &Report) -> Result<Outcome> {
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     for technique in technique::ALL {
         match report.format {
             Format::Human => human(&mut out, *technique)?,

@@ -12,7 +12,7 @@ use serde_json::json;
 
 use super::args::{parse_map, parse_size};
 use super::messages::{Format, Report};
-use super::output::{Sink, finish_in};
+use super::output::{Sink, finish_in, stdout};
 use super::{Outcome, Result, input, parse_shape, profile};
 use crate::diag::Failure;
 use crate::gpu::timing::{Clock, Protocol};
@@ -156,7 +156,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 
     match report.format {
         Format::Human => human(&tuning, &path)?,
-        Format::Json => writeln!(io::stdout().lock(), "{}", object(&tuning))?,
+        Format::Json => writeln!(stdout(), "{}", object(&tuning))?,
     }
     if !tuning.wrong.is_empty() {
         outcome = Outcome::Findings;
@@ -191,7 +191,7 @@ fn keep(directory: &Path, path: &Path, choice: Choice, device: &str, mut sinks: 
 }
 
 fn human(tuning: &Tuning<'_>, path: &Path) -> Result<()> {
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     writeln!(out, "device: {}", tuning.device)?;
     writeln!(out, "measured with {}", tuning.method())?;
     if tuning.clock == Clock::Wall && !tuning.options.wall_clock {

@@ -1,12 +1,13 @@
 //! `umbrage why`: what reaches a case.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use serde_json::{Value as Json, json};
 
 use super::messages::{Format, Report};
 use super::{Outcome, Result, profiled};
+use crate::cli::output::stdout;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::explain::reach::Arrival;
 use crate::explain::why::{self, Why};
@@ -46,7 +47,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         Format::Human => why::render(&program, &why, shares.as_deref()),
         Format::Json => format!("{}\n", object(&program, &why, shares.as_deref())),
     };
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     out.write_all(text.as_bytes())?;
     out.flush()?;
     Ok(Outcome::Clean)

@@ -7,6 +7,7 @@
 
 pub mod codes;
 mod source;
+mod visible;
 
 use std::fmt;
 use std::sync::Arc;
@@ -17,6 +18,7 @@ use codespan_reporting::term;
 pub use codes::Code;
 pub(crate) use source::fnv1a;
 pub use source::{Source, Span, Spanned};
+pub(crate) use visible::visible;
 
 /// The severity of a diagnostic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -93,7 +95,7 @@ impl Diagnostic {
         };
         let labels = self.labels.iter().enumerate().map(|(i, label)| {
             let style = if i == 0 { codespan::LabelStyle::Primary } else { codespan::LabelStyle::Secondary };
-            codespan::Label::new(style, (), label.span.start..label.span.end).with_message(&label.message)
+            codespan::Label::new(style, (), label.span.start..label.span.end).with_message(visible(&label.message))
         });
         // A message without a place still names its file.
         let message = if self.labels.is_empty() && !source.name.is_empty() {
@@ -103,10 +105,10 @@ impl Diagnostic {
         };
         let shown = codespan::Diagnostic::new(severity)
             .with_code(self.code.0)
-            .with_message(message)
+            .with_message(visible(&message))
             .with_labels_iter(labels)
-            .with_notes(self.notes.clone());
-        let file = source::Excerpts(source);
+            .with_notes(self.notes.iter().map(|note| visible(note).into_owned()).collect());
+        let file = source::Excerpts::new(source);
         // A note is nothing to mend: its place is named, but no excerpt of the source shown.
         let display_style = match self.severity {
             Severity::Note => term::DisplayStyle::Medium,

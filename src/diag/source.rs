@@ -1,8 +1,11 @@
 //! Texts that diagnostics point into: sources, spans of bytes, lines and columns.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use codespan_reporting::files::{self, Files};
+
+use super::visible::{in_place, visible};
 
 /// A range of bytes in a [`Source`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -100,30 +103,40 @@ pub(crate) fn fnv1a(bytes: impl IntoIterator<Item = u8>) -> u64 {
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-/// A source as what excerpts are taken from: its lines are known already.
-pub(super) struct Excerpts<'s>(pub(super) &'s Source);
+/// A source as what excerpts are taken from: its lines are known already, and nothing in them acts.
+pub(super) struct Excerpts<'s> {
+    name: Cow<'s, str>,
+    text: Cow<'s, str>,
+    lines: &'s [usize],
+}
 
-impl<'s> Files<'s> for Excerpts<'s> {
+impl<'s> Excerpts<'s> {
+    pub(super) fn new(source: &'s Source) -> Self {
+        Self { name: visible(&source.name), text: in_place(&source.text), lines: &source.lines }
+    }
+}
+
+impl<'s> Files<'s> for Excerpts<'_> {
     type FileId = ();
     type Name = &'s str;
     type Source = &'s str;
 
     fn name(&'s self, (): ()) -> Result<&'s str, files::Error> {
-        Ok(&self.0.name)
+        Ok(&self.name)
     }
 
     fn source(&'s self, (): ()) -> Result<&'s str, files::Error> {
-        Ok(&self.0.text)
+        Ok(&self.text)
     }
 
     fn line_index(&'s self, (): (), offset: usize) -> Result<usize, files::Error> {
-        Ok(self.0.lines.partition_point(|start| *start <= offset) - 1)
+        Ok(self.lines.partition_point(|start| *start <= offset) - 1)
     }
 
     fn line_range(&'s self, (): (), line: usize) -> Result<std::ops::Range<usize>, files::Error> {
-        let lines = &self.0.lines;
+        let lines = self.lines;
         let start = lines.get(line).ok_or(files::Error::LineTooLarge { given: line, max: lines.len() - 1 })?;
-        Ok(*start..lines.get(line + 1).copied().unwrap_or(self.0.text.len()))
+        Ok(*start..lines.get(line + 1).copied().unwrap_or(self.text.len()))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use crate::diag::visible;
+
 /// The style of every page; light or dark as the reader's system says.
 const STYLE: &str = include_str!("page.css");
 
@@ -20,7 +22,7 @@ pub fn page(title: &str, body: Markup) -> String {
             body { main { h1 { (title) } (body) } }
         }
     };
-    markup.into_string() + "\n"
+    visible(&markup.into_string()).into_owned() + "\n"
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@ use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, Value
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use crate::diag::visible;
+
 /// Colours that also those can tell apart who do not see all of them (after Okabe and Ito).
 const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
@@ -183,7 +185,7 @@ pub fn bars(frame: &Frame, categories: &[String], series: &[Bars]) -> String {
 /// What was drawn. Drawing into memory fails only on a frame without room for its axes.
 fn finish(drawn: Result<(), Box<dyn std::error::Error>>, svg: String, frame: &Frame) -> String {
     match drawn {
-        Ok(()) => svg,
+        Ok(()) => visible(&svg).into_owned(),
         Err(_) => {
             let (width, height) = frame.size;
             format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\"></svg>\n")

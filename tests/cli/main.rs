@@ -14,6 +14,7 @@ mod report;
 mod support;
 mod tables;
 mod tools;
+mod visible;
 mod why;
 mod worked_values;
 mod writing;

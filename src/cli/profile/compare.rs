@@ -1,11 +1,12 @@
 //! `umbrage profile diff`: what is more or less frequent in a second profile.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use serde_json::json;
 
 use crate::cli::messages::{Format, Report};
+use crate::cli::output::stdout;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, changes, total_variation};
@@ -29,7 +30,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     let found = changes(&before, &after);
     let variation = total_variation(&before, &after);
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     if report.format == Format::Json {
         let cases = found.iter().map(|change| {
             let case = change.case.map_or(json!("default"), |case| json!(case));

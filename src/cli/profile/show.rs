@@ -1,6 +1,6 @@
 //! `umbrage profile show`: frequencies of the cases, as text, JSON or a picture.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use serde_json::json;
@@ -8,7 +8,7 @@ use serde_json::json;
 use super::{excluded, read_all};
 use crate::cli::input::has_extension;
 use crate::cli::messages::{Format, Report};
-use crate::cli::output::Sink;
+use crate::cli::output::{Sink, stdout};
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture;
@@ -59,14 +59,14 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     match (&arguments.output, report.format) {
         (Some(path), _) => draw(&profile, path)?,
         (None, Format::Human) => text(&profile, program.as_ref())?,
-        (None, Format::Json) => writeln!(io::stdout().lock(), "{}", object(&profile))?,
+        (None, Format::Json) => writeln!(stdout(), "{}", object(&profile))?,
     }
     Ok(outcome)
 }
 
 fn text(profile: &Profile, program: Option<&Program>) -> Result<()> {
     let found = frequencies(profile);
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     writeln!(out, "{}: {} evaluations", profile.table, profile.total())?;
     for scene in &profile.scenes {
         let weight = if scene.weight == 1.0 { String::new() } else { format!(", weight {}", scene.weight) };

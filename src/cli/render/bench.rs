@@ -1,6 +1,6 @@
 //! `umbrage bench`: what each technique's visibility pass costs on this device.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::sync::Arc;
 
 use comfy_table::{CellAlignment, Table, presets};
@@ -8,6 +8,7 @@ use serde_json::json;
 
 use crate::cli::args::{Set, TechniqueArgument, parse_map, parse_size, technique_parser};
 use crate::cli::messages::{Format, Report};
+use crate::cli::output::stdout;
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result, parse_shape};
 use crate::gpu::timing::{Clock, Protocol, Stopwatch, Times, interleaved};
@@ -71,7 +72,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
     let stopwatch = Stopwatch::new(&gpu);
     let frames: Vec<Frame<'_>> = sizes.iter().map(|size| Frame::new(&scene, *size, &executor)).collect();
     let mut prepared: Vec<Box<dyn Prepared<'_> + '_>> = Vec::new();
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     for &size in &arguments.shadow_map {
         for frame in &frames {
             let sized = techniques.iter().flat_map(|technique| technique.settings());

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::cli::args::{Backend, Machine};
 use crate::cli::messages::Report;
-use crate::cli::output::{Sink, finish_all};
+use crate::cli::output::{Sink, finish_all, stdout};
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture::plot;
@@ -164,7 +164,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         put(plot_sink, trade_off(&scene, &surfaces, &executor)?.as_bytes())?;
     }
     finish_all(sinks)?;
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     out.write_all(say.as_bytes())?;
     out.flush()?;
     Ok(Outcome::Clean)

@@ -5,7 +5,7 @@ pub(crate) mod bench;
 pub(crate) mod light;
 pub(crate) mod quality;
 
-use std::io::{self, Cursor, Write as _};
+use std::io::{Cursor, Write as _};
 use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, Rgb32FImage, RgbImage};
@@ -14,7 +14,7 @@ use serde_json::json;
 use super::args::{Backend, Machine, SettingArguments, TechniqueArgument, parse_map, parse_size, technique_parser};
 use super::input::has_extension;
 use super::messages::{Format, Report};
-use super::output::{Sink, finish_all};
+use super::output::{Sink, finish_all, stdout};
 use super::progress::Progress;
 use super::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
@@ -217,7 +217,7 @@ fn stats(report: &Report, frame: &Frame<'_>, answer: &Answer<'_>) -> Result<()> 
     let counts = answer.table.map_or(Vec::new(), |table| cases::counts(table, taken));
     let pixels = frame.surfaces.points.len();
     let asked = taken.iter().filter(|case| **case != NONE).count();
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     if report.format == Format::Json {
         let cases: Vec<_> = counts
             .iter()

@@ -1,6 +1,6 @@
 //! `umbrage quality`: how far each technique is from the true shadow.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
@@ -10,7 +10,7 @@ use crate::cli::args::{
 };
 use crate::cli::input::has_extension;
 use crate::cli::messages::{Format, Report};
-use crate::cli::output::{Sink, finish_all};
+use crate::cli::output::{Sink, finish_all, stdout};
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
@@ -95,7 +95,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         sinks.push(sink);
     }
     finish_all(sinks)?;
-    let mut out = io::stdout().lock();
+    let mut out = stdout();
     match report.format {
         Format::Json => writeln!(out, "{}", object())?,
         Format::Human => {
