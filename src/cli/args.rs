@@ -23,7 +23,7 @@ pub(super) type TechniqueArgument = &'static dyn Technique;
 #[derive(clap::Args)]
 pub(super) struct Machine {
     /// Where it runs: auto is a GPU, or the CPU where there is only a software adapter
-    /// [default: auto to render and compare; cpu to count, to evaluate, and for light]
+    /// [default: auto to render and compare; gpu for bench; cpu to count, to evaluate, and for light]
     #[arg(long, alias = "executor", value_enum, value_name = "WHERE")]
     pub(super) backend: Option<Backend>,
     /// The adapter: any, software, hardware, or a part of its name

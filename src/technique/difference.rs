@@ -1,7 +1,8 @@
-//! Differences between a picture of visibility and the true one.
+//! Differences between a picture of visibility, or of light, and the true one.
 //!
-//! Each pixel weighs what light would leave there: an error in the dark is none.
+//! Each pixel of visibility weighs what light would leave there: an error in the dark is none.
 
+use glam::Vec3;
 use image::{GrayImage, Luma};
 
 use crate::scene::surfaces::Surfaces;
@@ -73,6 +74,19 @@ impl Region {
         let all: f64 = weights().map(|(_, weight)| weight * weight).sum();
         (wrong / all.max(f64::MIN_POSITIVE)).sqrt()
     }
+}
+
+/// The light that is wrong, over the light that there is: the root mean square of the difference from the true light
+/// of all pixels that show a surface, relative to that of the true light.
+pub fn of_light(surfaces: &Surfaces, light: &[[f32; 3]], truth: &[[f32; 3]]) -> f64 {
+    let pixels = surfaces.points.iter().zip(light.iter().zip(truth));
+    let (mut wrong, mut all) = (0.0, 0.0);
+    for (_, (light, truth)) in pixels.filter(|(point, _)| point.is_some()) {
+        let [light, truth] = [light, truth].map(|colour| Vec3::from_array(*colour).as_dvec3());
+        wrong += (light - truth).length_squared();
+        all += truth.length_squared();
+    }
+    (wrong / all.max(f64::MIN_POSITIVE)).sqrt()
 }
 
 /// The difference of visibility from the truth, within a region.

@@ -47,6 +47,7 @@ pub static ALL: &[&dyn Technique] = &[
     &revectorise::CASE_FREE,
     &reference::REFERENCE,
     &integrals::INTEGRALS,
+    &integrals::BRUTE_FORCE,
 ];
 
 /// A way to turn a scene into a picture.
@@ -87,6 +88,8 @@ pub trait Technique: Sync {
 /// What a technique can be asked for besides its picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ability {
+    /// The layer [`VALUE`](rendered::VALUE).
+    Visibility,
     /// The layers [`CASE`](rendered::CASE) and [`STATE`](rendered::STATE).
     Cases,
     /// [`Prepared::inputs`].
@@ -100,6 +103,7 @@ pub enum Ability {
 impl fmt::Display for Ability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Ability::Visibility => "visibility of a light",
             Ability::Cases => "a table of cases",
             Ability::Inputs => "inputs that can be captured",
             Ability::Passes => "passes that can be measured",

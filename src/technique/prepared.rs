@@ -1,13 +1,15 @@
 //! Techniques that are ready to render.
 
 #[cfg(feature = "gpu")]
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
+#[cfg(feature = "gpu")]
+use super::Executor;
 use super::{Frame, Rendered, Technique};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::Columns;
 #[cfg(feature = "gpu")]
-use crate::gpu::timing::Stopwatch;
+use crate::gpu::timing::{Clock, Stopwatch};
 use crate::program::Program;
 
 /// Is told of every row of pixels that is finished; a frame has as many as its picture has rows.
@@ -51,7 +53,7 @@ pub trait Prepared<'s> {
         Ok(None)
     }
 
-    /// The passes that render the frame, each to be measured by itself.
+    /// The passes that render the frame, or its stages on the CPU, each to be measured by itself.
     ///
     /// # Errors
     /// When the device refuses a shader, or fails.
@@ -94,11 +96,51 @@ pub enum Detail {
     Variants,
 }
 
-/// A run of a pass, measured.
+/// What passes are measured with.
 #[cfg(feature = "gpu")]
-type Run<'p> = dyn Fn(&Stopwatch<'_>) -> Result<Duration, Failure> + 'p;
+#[derive(Debug)]
+pub enum Watch<'g> {
+    /// The stopwatch of a device.
+    Device(Stopwatch<'g>),
+    /// The computer's clock, for stages on the CPU.
+    Cpu,
+}
 
-/// A pass on a device that can be run again and again.
+#[cfg(feature = "gpu")]
+impl<'g> Watch<'g> {
+    /// The watch for a machine.
+    pub fn new(on: &'g Executor) -> Self {
+        match on {
+            Executor::Cpu => Watch::Cpu,
+            Executor::Gpu(gpu) => Watch::Device(Stopwatch::new(gpu)),
+        }
+    }
+
+    /// What times are taken with.
+    pub fn clock(&self) -> Clock {
+        match self {
+            Watch::Device(stopwatch) => stopwatch.clock(),
+            Watch::Cpu => Clock::Wall,
+        }
+    }
+}
+
+/// A run on a device, which measures it.
+#[cfg(feature = "gpu")]
+type OnDevice<'p> = dyn Fn(&Stopwatch<'_>) -> Result<Duration, Failure> + 'p;
+
+/// A run on the CPU.
+#[cfg(feature = "gpu")]
+type OnCpu<'p> = dyn Fn() -> Result<(), Failure> + 'p;
+
+/// A run of a pass.
+#[cfg(feature = "gpu")]
+enum Run<'p> {
+    Device(Box<OnDevice<'p>>),
+    Cpu(Box<OnCpu<'p>>),
+}
+
+/// A pass on a device, or a stage on the CPU, that can be run again and again.
 #[cfg(feature = "gpu")]
 pub struct Pass<'p> {
     /// The technique, or the variant of it.
@@ -107,27 +149,43 @@ pub struct Pass<'p> {
     pub name: &'static str,
     /// What the pass costs, by counts that do not depend on the device; where they were asked for.
     pub costs: Option<Costs>,
-    run: Box<Run<'p>>,
+    run: Run<'p>,
 }
 
 #[cfg(feature = "gpu")]
 impl<'p> Pass<'p> {
-    /// A pass that `run` runs and measures.
+    /// A pass on a device that `run` runs and measures.
     pub fn new(
         variant: &'static str,
         name: &'static str,
         costs: Option<Costs>,
         run: impl Fn(&Stopwatch<'_>) -> Result<Duration, Failure> + 'p,
     ) -> Self {
-        Self { variant, name, costs, run: Box::new(run) }
+        Self { variant, name, costs, run: Run::Device(Box::new(run)) }
+    }
+
+    /// A stage on the CPU that `run` runs.
+    pub fn on_cpu(variant: &'static str, name: &'static str, run: impl Fn() -> Result<(), Failure> + 'p) -> Self {
+        Self { variant, name, costs: None, run: Run::Cpu(Box::new(run)) }
     }
 
     /// Runs the pass and measures it.
     ///
     /// # Errors
-    /// When the device fails.
-    pub fn time(&self, stopwatch: &Stopwatch<'_>) -> Result<Duration, Failure> {
-        (self.run)(stopwatch)
+    /// When the device fails, or the watch is not that of the machine that the pass was made for.
+    pub fn time(&self, watch: &Watch<'_>) -> Result<Duration, Failure> {
+        match (&self.run, watch) {
+            (Run::Device(run), Watch::Device(stopwatch)) => run(stopwatch),
+            (Run::Cpu(run), Watch::Device(_) | Watch::Cpu) => {
+                let start = Instant::now();
+                run()?;
+                Ok(start.elapsed())
+            }
+            (Run::Device(_), Watch::Cpu) => {
+                let message = format!("the pass `{}` runs on a device and is measured by it", self.name);
+                Err(Failure::bare("", Diagnostic::error(codes::NOT_APPLICABLE, message)))
+            }
+        }
     }
 }
 

@@ -71,7 +71,7 @@ impl Technique for Entry {
     }
 
     fn abilities(&self) -> &'static [Ability] {
-        &[]
+        &[Ability::Visibility]
     }
 
     fn truth(&self) -> Option<&'static str> {

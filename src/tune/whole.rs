@@ -6,9 +6,9 @@
 
 use super::Measured;
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::gpu::timing::{Protocol, Stopwatch, Times, interleaved};
+use crate::gpu::timing::{Protocol, Times, interleaved};
 use crate::program::Program;
-use crate::technique::prepared::{Detail, Pass};
+use crate::technique::prepared::{Detail, Pass, Watch};
 use crate::technique::{self, Ability, Frame, Technique};
 
 /// What was measured of a frame, in one kind of pass.
@@ -67,7 +67,7 @@ pub fn whole<'s>(
     name: &str,
     frame: &Frame<'s>,
     plans: &'s [Measured<'s>],
-    watch: &Stopwatch<'_>,
+    watch: &Watch<'_>,
     protocol: Protocol,
 ) -> Result<Vec<Whole>, Failure> {
     let mut prepared = Vec::new();

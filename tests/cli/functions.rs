@@ -81,29 +81,24 @@ fn worked_examples_on_the_gpu() {
 #[test]
 fn light_on_the_gpu_is_that_of_the_interpreter() {
     use crate::support::adapter;
+    use std::sync::Arc;
     use umbrage::scene::Scene;
-    use umbrage::scene::rays::Rays;
-    use umbrage::scene::surfaces::Surfaces;
-    use umbrage::technique::integrals::gpu::LightPipeline;
-    use umbrage::technique::integrals::{Settings, Surroundings, Tables, picture};
+    use umbrage::technique::difference::of_light;
+    use umbrage::technique::integrals::{CELLS, INTEGRALS};
+    use umbrage::technique::rendered::LIGHT;
+    use umbrage::technique::{Executor, Frame};
     let Some(gpu) = adapter() else { return };
-    let world = Scene::open("studio").unwrap();
-    let rays = Rays::exact(&world);
-    let (scene, settings) = (Surroundings::new(&world).unwrap(), Settings::with_threshold(0.1));
-    let tables = Tables::new().unwrap();
-    let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, 24, 14));
-    let expected = picture::shade(&scene, &tables, &settings, &surfaces).unwrap();
-    let got = LightPipeline::new(&gpu, &tables, &scene).unwrap().shade(&scene, &settings, &surfaces).unwrap();
-    let (mut error, mut whole) = (0.0, 0.0);
-    for (got, expected) in got.light.iter().zip(&expected.light) {
-        assert_eq!(got.is_some(), expected.is_some());
-        let (Some(got), Some(expected)) = (got, expected) else { continue };
-        error += (*got - *expected).length_squared();
-        whole += expected.length_squared();
-    }
-    let relative = f64::sqrt(error / whole);
+    let scene = Scene::open("studio").unwrap();
+    let executors = [Executor::Gpu(Arc::new(gpu)), Executor::Cpu];
+    let [got, expected] = executors.each_ref().map(|on| {
+        let frame = Frame::new(&scene, (24, 14), on);
+        frame.prepare(&INTEGRALS).and_then(|mut prepared| prepared.render(&|_| {})).or_panic()
+    });
+    let surfaces = Frame::new(&scene, (24, 14), &executors[1]).surfaces;
+    let relative = of_light(&surfaces, got.colours(LIGHT).unwrap(), expected.colours(LIGHT).unwrap());
     assert!(relative < 2e-3, "{relative}");
-    let [got, expected] = [got, expected].map(|shaded| f64::from(shaded.cells.iter().sum::<u32>()));
+    let [got, expected] =
+        [got, expected].map(|rendered| f64::from(rendered.counts(CELLS).unwrap().iter().sum::<u32>()));
     assert!((got / expected - 1.0).abs() < 0.1, "{got} cells, {expected}");
 }
 

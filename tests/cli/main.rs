@@ -8,6 +8,7 @@ mod explain;
 mod files;
 mod findings;
 mod functions;
+mod integrals;
 mod render;
 mod report;
 #[path = "../support/mod.rs"]

@@ -136,7 +136,7 @@ fn scenes_are_decided_alike() {
         if !scene.has_punctual() {
             continue;
         }
-        let stage = Stage::new(&scene).unwrap_or_else(|error| panic!("{error}"));
+        let stage = Stage::new(&scene, "every variant").unwrap_or_else(|error| panic!("{error}"));
         let by_rays = stage.shadow_map(256, Bias::default());
         let receivers = stage.receivers(&stage.surfaces(480, 270), 256);
         executors.compare(&gpu, name, &by_rays, &receivers, &settings, false);

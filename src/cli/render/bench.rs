@@ -1,21 +1,19 @@
-//! `umbrage bench`: what each technique's visibility pass costs on this device.
+//! `umbrage bench`: the cost of each technique's passes on this device, or of its stages on the CPU.
 
 use std::io::Write;
-use std::sync::Arc;
 
 use comfy_table::{CellAlignment, Table, presets};
 use serde_json::json;
 
-use crate::cli::args::{Set, TechniqueArgument, parse_map, parse_size, technique_parser};
+use crate::cli::args::{Backend, Machine, Set, TechniqueArgument, parse_map, parse_size, technique_parser};
 use crate::cli::messages::{Format, Report};
 use crate::cli::output::stdout;
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result, parse_shape};
-use crate::gpu::timing::{Clock, Protocol, Stopwatch, Times, interleaved};
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::timing::{Clock, Protocol, Times, interleaved};
 use crate::plan::Shape;
 use crate::scene::Scene;
-use crate::technique::prepared::{Detail, Pass};
+use crate::technique::prepared::{Detail, Pass, Watch};
 use crate::technique::setting::Value;
 use crate::technique::{self, Ability, Executor, Frame, Prepared, Settings};
 
@@ -29,15 +27,14 @@ pub(in crate::cli) struct Arguments {
     #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = technique_parser(),
           hide_possible_values = true)]
     techniques: Vec<TechniqueArgument>,
-    /// Sizes of the picture [default: 1920x1080,3840x2160; on a software adapter 960x540]
+    /// Sizes of the picture [default: 1920x1080,3840x2160; on a software adapter 960x540, on the CPU 480x270]
     #[arg(long, value_name = "WxH", value_delimiter = ',', value_parser = parse_size)]
     size: Vec<(u32, u32)>,
-    /// Texels per side of the shadow map
-    #[arg(long, value_name = "TEXELS", value_delimiter = ',', value_parser = parse_map, default_value = "1024,4096")]
+    /// Texels per side of the shadow map, of techniques that have one [default: 1024,4096; on the CPU 1024]
+    #[arg(long, value_name = "TEXELS", value_delimiter = ',', value_parser = parse_map)]
     shadow_map: Vec<u32>,
-    /// The adapter: any, software, hardware, or a part of its name
-    #[arg(long, value_name = "WHICH", default_value = "any")]
-    adapter: AdapterChoice,
+    #[command(flatten)]
+    machine: Machine,
     /// The code shape of the tables [default: ladder]
     #[arg(long, value_name = "PLAN", value_parser = parse_shape)]
     plan: Option<Shape>,
@@ -61,25 +58,24 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
     let scene = Scene::open(&arguments.scene)?;
     let techniques = techniques(arguments, &scene)?;
     let settings = settings(arguments, &techniques)?;
-    let gpu = Arc::new(Gpu::open(&arguments.adapter)?);
-    let sizes = match arguments.size.as_slice() {
-        [] if gpu.is_software() => &[(960, 540)],
-        [] => [(1920, 1080), (3840, 2160)].as_slice(),
-        sizes => sizes,
+    let executor = arguments.machine.executor(Backend::Gpu, report)?;
+    let (usual_sizes, usual_maps) = usual(&executor);
+    let sizes = if arguments.size.is_empty() { usual_sizes } else { &arguments.size };
+    let maps = if arguments.shadow_map.is_empty() { usual_maps } else { &arguments.shadow_map };
+    let sized =
+        techniques.iter().flat_map(|technique| technique.settings()).find(|setting| setting.name == "shadow_map");
+    let maps: Vec<(Option<u32>, Settings)> = match sized {
+        Some(setting) => maps.iter().map(|size| (Some(*size), settings.with(setting, Value::Whole(*size)))).collect(),
+        None => vec![(None, settings)],
     };
-    let executor = Executor::Gpu(Arc::clone(&gpu));
     let protocol = Protocol { warm_up: arguments.warm_up, rounds: arguments.rounds };
-    let stopwatch = Stopwatch::new(&gpu);
+    let watch = Watch::new(&executor);
     let frames: Vec<Frame<'_>> = sizes.iter().map(|size| Frame::new(&scene, *size, &executor)).collect();
     let mut prepared: Vec<Box<dyn Prepared<'_> + '_>> = Vec::new();
     let mut out = stdout();
-    for &size in &arguments.shadow_map {
+    for (map, settings) in &maps {
         for frame in &frames {
-            let sized = techniques.iter().flat_map(|technique| technique.settings());
-            let frame = match sized.clone().find(|setting| setting.name == "shadow_map") {
-                Some(setting) => frame.with(settings.with(setting, Value::Whole(size))),
-                None => frame.with(settings.clone()),
-            };
+            let frame = frame.with(settings.clone());
             for (index, technique) in techniques.iter().enumerate() {
                 match prepared.get_mut(index) {
                     Some(prepared) => prepared.set_frame(&frame)?,
@@ -92,14 +88,15 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
             }
             let (width, height) = frame.size();
             let progress = Progress::new(((protocol.warm_up + protocol.rounds) * passes.len()) as u64);
-            progress.begin(&format!("{width}x{height}, map {size}"));
+            progress.begin(&format!("{width}x{height}{}", words(*map)));
             let times = interleaved(protocol, passes.len(), |index| {
                 progress.advance(1);
-                passes[index].time(&stopwatch)
+                passes[index].time(&watch)
             })?;
             drop(progress);
             let measured: Vec<(Pass<'_>, Times)> = passes.into_iter().zip(times).collect();
-            let subject = Subject { gpu: &gpu, clock: stopwatch.clock(), scene: &scene.name, width, height, size };
+            let (on, clock, scene) = (executor.describe(), watch.clock(), &scene.name);
+            let subject = Subject { on, clock, scene, width, height, map: *map };
             match report.format {
                 Format::Human => human(&mut out, &subject, &measured)?,
                 Format::Json => writeln!(out, "{}", json(&subject, &measured))?,
@@ -108,6 +105,15 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         }
     }
     Ok(Outcome::Clean)
+}
+
+/// The sizes of pictures and of shadow maps where none are named.
+fn usual(executor: &Executor) -> (&'static [(u32, u32)], &'static [u32]) {
+    match executor {
+        Executor::Cpu => (&[(480, 270)], &[1024]),
+        Executor::Gpu(gpu) if gpu.is_software() => (&[(960, 540)], &[1024, 4096]),
+        Executor::Gpu(_) => (&[(1920, 1080), (3840, 2160)], &[1024, 4096]),
+    }
 }
 
 /// The techniques that are measured: those that were named, or all that can be measured in the scene.
@@ -139,12 +145,17 @@ fn settings(arguments: &Arguments, techniques: &[TechniqueArgument]) -> Result<S
 
 /// What was measured on.
 struct Subject<'a> {
-    gpu: &'a Gpu,
+    on: String,
     clock: Clock,
     scene: &'a str,
     width: u32,
     height: u32,
-    size: u32,
+    map: Option<u32>,
+}
+
+/// The size of a shadow map in words, where there is one.
+fn words(map: Option<u32>) -> String {
+    map.map_or(String::new(), |size| format!(", shadow map {size}"))
 }
 
 /// The first subject: the others are compared with it.
@@ -159,8 +170,8 @@ fn vs_first(measured: &[(Pass<'_>, Times)], pass: &Pass<'_>, times: &Times) -> f
 }
 
 fn human(out: &mut impl Write, subject: &Subject<'_>, measured: &[(Pass<'_>, Times)]) -> Result<()> {
-    let Subject { gpu, clock, scene, width, height, size } = subject;
-    writeln!(out, "{scene}, {width}x{height}, shadow map {size}; {}; {clock}", gpu.describe())?;
+    let Subject { on, clock, scene, width, height, map } = subject;
+    writeln!(out, "{scene}, {width}x{height}{}; {on}; {clock}", words(*map))?;
     let mut table = Table::new();
     table.load_preset(presets::NOTHING);
     let vs = format!("vs {}", first(measured));
@@ -210,12 +221,12 @@ fn json(subject: &Subject<'_>, measured: &[(Pass<'_>, Times)]) -> serde_json::Va
         object
     });
     json!({
-        "device": subject.gpu.describe(),
+        "device": subject.on,
         "clock": subject.clock.to_string(),
         "scene": subject.scene,
         "width": subject.width,
         "height": subject.height,
-        "shadow_map": subject.size,
+        "shadow_map": subject.map,
         "passes": passes.collect::<Vec<_>>(),
     })
 }

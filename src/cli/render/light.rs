@@ -1,42 +1,30 @@
-//! `umbrage light`: a picture lit by integral expansions, beside brute force.
+//! `umbrage light`: short for `umbrage render --technique integrals`, beside its truth.
 
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::PathBuf;
 use std::time::Instant;
 
-use glam::DVec3;
-use image::{ImageFormat, RgbImage};
-use rayon::prelude::*;
+use image::ImageFormat;
 
-use crate::cli::args::{Backend, Machine};
+use super::Canvas;
+use crate::cli::args::{Backend, Machine, parse_size};
 use crate::cli::messages::Report;
 use crate::cli::output::{Sink, finish_all, stdout};
 use crate::cli::{Outcome, Result};
-use crate::diag::{Diagnostic, Failure, codes};
+use crate::diag::Failure;
 use crate::picture::plot;
 use crate::scene::Scene;
-use crate::scene::rays::Rays;
-use crate::scene::surfaces::Surfaces;
-use crate::technique;
-#[cfg(feature = "gpu")]
-use crate::technique::integrals::gpu::LightPipeline;
-use crate::technique::integrals::picture;
-use crate::technique::integrals::{Settings, Shaded, Surface, Surroundings, Tables};
+use crate::technique::difference::of_light;
+use crate::technique::integrals::{BORDER, BRUTE_FORCE, CELLS, DIRECTIONS, EDGES, INTEGRALS, LOBE, picture};
+use crate::technique::rendered::LIGHT;
+use crate::technique::setting::Value;
+use crate::technique::{Executor, Frame, Rendered, Settings, shade};
 
-/// Largest width and height of a picture.
-const MAX_SIDE: u32 = 4096;
-
-/// Directions from pole to pole of a brute-force sum.
-const FINENESS: u32 = 128;
-
-/// The same for the plot, whose errors are smaller.
-const PLOTTED_FINENESS: u32 = 512;
-
-/// What is said of pictures by the interpreter.
-const INTERPRETER: &str = "tables by the interpreter";
+/// Directions from pole to pole of the sums for the plot, whose errors are small.
+const PLOTTED_DIRECTIONS: u32 = 512;
 
 /// Thresholds of the plot.
-const THRESHOLDS: [f64; 6] = [0.3, 0.1, 0.05, 0.03, 0.02, 0.01];
+const THRESHOLDS: [f64; 6] = [0.01, 0.02, 0.03, 0.05, 0.1, 0.3];
 
 /// Width and height of the picture that the plot measures.
 const PLOTTED: (u32, u32) = (32, 18);
@@ -48,14 +36,14 @@ pub(in crate::cli) struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// A scene that comes with Umbrage, or the file of one: balls and flat polygons under Gaussian lights
-    #[arg(long, value_name = "NAME|FILE", default_value = "studio")]
+    #[arg(long, value_name = "SCENE", default_value = "studio")]
     scene: String,
     /// Width and height of the picture
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "160x90", value_parser = size)]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "160x90", value_parser = parse_size)]
     size: (u32, u32),
     /// Largest error of the border of visibility and of the lobes in a cell: e_r
     #[arg(long, value_name = "RADIANS", default_value = "0.1", value_parser = threshold, allow_negative_numbers = true)]
-    threshold: f64,
+    threshold: Value,
     #[command(flatten)]
     machine: Machine,
     /// The same picture by brute force, a PNG file; prints how far they are apart
@@ -69,32 +57,13 @@ pub(in crate::cli) struct Arguments {
     plot: Option<PathBuf>,
 }
 
-fn size(text: &str) -> std::result::Result<(u32, u32), String> {
-    let side = |text: &str| text.parse::<u32>().ok().filter(|side| (1..=MAX_SIDE).contains(side));
-    let sides = text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?)));
-    sides.ok_or_else(|| format!("expected two numbers from 1 to {MAX_SIDE}, as in 320x180"))
+fn threshold(text: &str) -> std::result::Result<Value, String> {
+    BORDER.parse(text)
 }
 
-fn threshold(text: &str) -> std::result::Result<f64, String> {
-    let number = text.parse::<f64>().ok().filter(|number| (0.001..=10.0).contains(number));
-    number.ok_or_else(|| "expected a number from 0.001 to 10".to_owned())
-}
-
-/// What makes the light at surfaces.
-enum Executor<'t> {
-    Interpreter(&'t Tables),
-    #[cfg(feature = "gpu")]
-    Gpu(LightPipeline<'t>),
-}
-
-impl Executor<'_> {
-    fn shade(&self, scene: &Surroundings, settings: &Settings, surfaces: &[Option<Surface>]) -> Result<Shaded> {
-        match self {
-            Executor::Interpreter(tables) => Ok(picture::shade(scene, tables, settings, surfaces)?),
-            #[cfg(feature = "gpu")]
-            Executor::Gpu(pipeline) => Ok(pipeline.shade(scene, settings, surfaces)?),
-        }
-    }
+/// Both thresholds the same.
+fn with_threshold(value: Value) -> Settings {
+    Settings::default().with(&BORDER, value).with(&LOBE, value)
 }
 
 /// Makes everything that was asked for, then writes it.
@@ -105,26 +74,9 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         arguments.cells.as_deref(),
         arguments.plot.as_deref(),
     ])?;
-
-    let world = Scene::open(&arguments.scene)?;
-    let scene = Surroundings::new(&world)?;
-    let rays = Rays::exact(&world);
-    let tables = Tables::new()?;
+    let scene = Scene::open(&arguments.scene)?;
+    let executor = arguments.machine.executor(Backend::Cpu, report)?;
     let mut say = String::new();
-    let machine = arguments.machine.executor(Backend::Cpu, report)?;
-    let (executor, place) = match &machine {
-        #[cfg(feature = "gpu")]
-        technique::Executor::Gpu(gpu) => {
-            let start = Instant::now();
-            let pipeline = LightPipeline::new(gpu, &tables, &scene)?;
-            say += &format!("shader compiled in {:.2} s\n", start.elapsed().as_secs_f64());
-            (Executor::Gpu(pipeline), gpu.describe())
-        }
-        technique::Executor::Cpu => (Executor::Interpreter(&tables), INTERPRETER.to_owned()),
-    };
-
-    let (width, height) = arguments.size;
-    let settings = Settings::with_threshold(arguments.threshold);
     let mut sinks = Vec::new();
     let mut put = |sink: Option<Sink>, bytes: &[u8]| -> Result<()> {
         let Some(mut sink) = sink else { return Ok(()) };
@@ -132,36 +84,41 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         sinks.push(sink);
         Ok(())
     };
-    let start = Instant::now();
-    let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, width, height));
-    let shaded = executor.shade(&scene, &settings, &surfaces)?;
-    let seconds = start.elapsed().as_secs_f64();
-    let (cells, edges) = means(&shaded);
-    say += &format!("{width} x {height} pixels in {seconds:.2} s, {place}, threshold {}\n", arguments.threshold);
-    say += &format!("per pixel that shows a surface: {cells:.1} cells, {edges:.1} edges\n");
-    let developed = picture::developed(width, height, &shaded.light, world.background);
-    put(picture_sink, &png(&arguments.output, &developed)?)?;
 
-    if let Some(path) = &arguments.reference {
+    let frame = Frame::new(&scene, arguments.size, &executor).with(with_threshold(arguments.threshold));
+    let start = Instant::now();
+    let mut integrals = frame.prepare(&INTEGRALS)?;
+    say += &format!("prepared in {:.2} s\n", start.elapsed().as_secs_f64());
+    let start = Instant::now();
+    let rendered = integrals.render(&|_| {})?;
+    let (seconds, (width, height)) = (start.elapsed().as_secs_f64(), arguments.size);
+    let (place, threshold) = (executor.describe(), arguments.threshold);
+    say += &format!("{width} x {height} pixels in {seconds:.2} s, {place}, threshold {threshold}\n");
+    let [cells, edges] = [CELLS, EDGES].map(|layer| mean(&frame, &rendered, layer));
+    say += &format!("per pixel that shows a surface: {cells:.1} cells, {edges:.1} edges\n");
+    put(picture_sink, &png(&frame, &rendered)?)?;
+
+    if reference_sink.is_some() {
         let start = Instant::now();
-        let exact = reference(&scene, &surfaces, FINENESS);
+        let truth = frame.prepare(&BRUTE_FORCE)?.render(&|_| {})?;
+        let fineness = frame.settings.whole(&DIRECTIONS);
         say += &format!(
             "brute force with {} directions: {:.2} s; root mean square difference {:.2} %\n",
-            2 * FINENESS * FINENESS,
+            2 * fineness * fineness,
             start.elapsed().as_secs_f64(),
-            100.0 * difference(&shaded.light, &exact)
+            100.0 * error(&frame, &rendered, &truth)
         );
-        put(reference_sink, &png(path, &picture::developed(width, height, &exact, world.background))?)?;
+        put(reference_sink, &png(&frame, &truth)?)?;
     }
-    if let Some(path) = &arguments.cells {
-        let most = shaded.cells.iter().copied().max().unwrap_or(0);
+    if cells_sink.is_some() {
+        let counts = rendered.counts(CELLS).unwrap_or_default();
+        let most = counts.iter().copied().max().unwrap_or(0);
         say += &format!("cells: white is {most}\n");
-        put(cells_sink, &png(path, &picture::counted(width, height, &shaded.cells, most))?)?;
+        let picture = picture::counted(width, height, counts, most);
+        put(cells_sink, &Canvas::Encoded(picture).bytes(ImageFormat::Png)?)?;
     }
     if plot_sink.is_some() {
-        let (width, height) = PLOTTED;
-        let surfaces = scene.surfaces(&rays, &Surfaces::new(&world, &rays, width, height));
-        put(plot_sink, trade_off(&scene, &surfaces, &executor)?.as_bytes())?;
+        put(plot_sink, trade_off(&scene, &executor)?.as_bytes())?;
     }
     finish_all(sinks)?;
     let mut out = stdout();
@@ -170,44 +127,36 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
     Ok(Outcome::Clean)
 }
 
-fn png(path: &Path, picture: &RgbImage) -> Result<Vec<u8>> {
-    let mut bytes = io::Cursor::new(Vec::new());
-    picture.write_to(&mut bytes, ImageFormat::Png).map_err(|error| {
-        Failure::bare(path.display().to_string(), Diagnostic::error(codes::UNWRITABLE, error.to_string()))
-    })?;
-    Ok(bytes.into_inner())
+/// The picture as `umbrage render` writes it.
+fn png(frame: &Frame<'_>, rendered: &Rendered) -> std::result::Result<Vec<u8>, Failure> {
+    Canvas::Linear(shade::picture(frame, rendered)?).bytes(ImageFormat::Png)
 }
 
-/// Cells and edges per pixel that shows a surface.
-fn means(shaded: &Shaded) -> (f64, f64) {
-    let hit = shaded.light.iter().filter(|light| light.is_some()).count().max(1) as f64;
-    let sum = |counts: &[u32]| counts.iter().map(|count| f64::from(*count)).sum::<f64>() / hit;
-    (sum(&shaded.cells), sum(&shaded.edges))
+/// The mean of a layer of counts over the pixels that show a surface.
+fn mean(frame: &Frame<'_>, rendered: &Rendered, layer: &str) -> f64 {
+    let surfaces = frame.surfaces.points.iter().flatten().count().max(1);
+    let counts = rendered.counts(layer).unwrap_or_default();
+    counts.iter().map(|count| f64::from(*count)).sum::<f64>() / surfaces as f64
 }
 
-fn reference(scene: &Surroundings, surfaces: &[Option<Surface>], fineness: u32) -> Vec<Option<DVec3>> {
-    let directions = picture::directions(&scene.lobes, fineness);
-    let light =
-        |surface: &Option<Surface>| surface.as_ref().map(|surface| picture::brute_force(scene, surface, &directions));
-    surfaces.par_iter().map(light).collect()
-}
-
-/// Root mean square of the difference, relative to that of the second.
-fn difference(got: &[Option<DVec3>], exact: &[Option<DVec3>]) -> f64 {
-    let pairs = || got.iter().flatten().zip(exact.iter().flatten());
-    let error: f64 = pairs().map(|(got, exact)| (*got - *exact).length_squared()).sum();
-    let whole: f64 = pairs().map(|(_, exact)| exact.length_squared()).sum();
-    (error / whole.max(f64::MIN_POSITIVE)).sqrt()
+/// How far light is from the true one, relative to it.
+fn error(frame: &Frame<'_>, rendered: &Rendered, truth: &Rendered) -> f64 {
+    let [light, truth] = [rendered, truth].map(|rendered| rendered.colours(LIGHT).unwrap_or_default());
+    of_light(&frame.surfaces, light, truth)
 }
 
 /// Cells per pixel and the error of the picture, against the threshold.
-fn trade_off(scene: &Surroundings, surfaces: &[Option<Surface>], executor: &Executor<'_>) -> Result<String> {
-    let exact = reference(scene, surfaces, PLOTTED_FINENESS);
+fn trade_off(scene: &Scene, executor: &Executor) -> Result<String> {
+    let frame = Frame::new(scene, PLOTTED, executor);
+    let fine = Settings::default().with(&DIRECTIONS, Value::Whole(PLOTTED_DIRECTIONS));
+    let truth = frame.with(fine).prepare(&BRUTE_FORCE)?.render(&|_| {})?;
+    let mut integrals = frame.prepare(&INTEGRALS)?;
     let (mut cells, mut errors) = (Vec::new(), Vec::new());
-    for threshold in THRESHOLDS.into_iter().rev() {
-        let shaded = executor.shade(scene, &Settings::with_threshold(threshold), surfaces)?;
-        cells.push((threshold, means(&shaded).0));
-        errors.push((threshold, 100.0 * difference(&shaded.light, &exact)));
+    for threshold in THRESHOLDS {
+        integrals.set_frame(&frame.with(with_threshold(Value::Number(threshold))))?;
+        let rendered = integrals.render(&|_| {})?;
+        cells.push((threshold, mean(&frame, &rendered, CELLS)));
+        errors.push((threshold, 100.0 * error(&frame, &rendered, &truth)));
     }
     let axis = |label: &str| plot::Axis { label: label.to_owned(), scale: plot::Scale::Log10 };
     let frame = plot::Frame {

@@ -22,9 +22,9 @@ use crate::picture::sheet::{self, Entry};
 use crate::picture::srgb;
 use crate::program::Program;
 use crate::scene::Scene;
-use crate::technique::difference::{Region, difference};
-use crate::technique::rendered::{CASE, NONE, VALUE};
-use crate::technique::{self, Ability, Executor, Frame, Rendered, capture, cases, shade};
+use crate::technique::difference::{Region, difference, of_light};
+use crate::technique::rendered::{CASE, LIGHT, NONE, VALUE};
+use crate::technique::{self, Ability, Executor, Frame, Inputs, Rendered, capture, cases, shade};
 use crate::text::file::shown;
 
 /// Arguments of `umbrage render`.
@@ -55,7 +55,8 @@ pub(super) struct Arguments {
     /// Say how many pixels took each case
     #[arg(long)]
     stats: bool,
-    /// Write the table's inputs in every pixel that asks it: binary, or *.csv
+    /// Write the table's inputs in every pixel that asks it: binary, or *.csv; where several tables are asked, one file
+    /// for each, with its name before the extension
     #[arg(long, value_name = "FILE", conflicts_with = "compare")]
     capture: Option<PathBuf>,
     #[command(flatten)]
@@ -89,13 +90,13 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let frame = Frame::new(&scene, arguments.size, &executor).with(settings);
     progress.advance(height);
     let mut answers = Vec::new();
-    let mut captured = None;
+    let mut captured = Vec::new();
     for technique in techniques {
         progress.begin(technique.name());
         let mut prepared = frame.prepare(technique)?;
         let rendered = prepared.render(&|rows| progress.advance(rows))?;
         if arguments.capture.is_some() {
-            captured = prepared.inputs()?.into_iter().next();
+            captured = prepared.inputs()?;
         }
         answers.push(Answer { technique, table: prepared.table(), rendered });
     }
@@ -106,10 +107,11 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         sink.write_all(&draw(arguments, &frame, &answers)?)?;
         sinks.push(sink);
     }
-    if let (Some(mut sink), Some(inputs)) = (capture_sink, captured) {
-        let as_csv = arguments.capture.as_deref().is_some_and(|path| has_extension(path, "csv"));
-        capture::write(&inputs, as_csv, &mut sink)?;
-        sinks.push(sink);
+    if let (Some(sink), Some(path)) = (capture_sink, &arguments.capture) {
+        for (inputs, mut sink) in captured.iter().zip(places(&captured, path, sink)?) {
+            capture::write(inputs, has_extension(path, "csv"), &mut sink)?;
+            sinks.push(sink);
+        }
     }
     finish_all(sinks)?;
     if arguments.stats {
@@ -143,6 +145,28 @@ fn check(arguments: &Arguments) -> std::result::Result<(), Failure> {
     Ok(())
 }
 
+/// The places of captures: the one that was named, or one beside it for each of several tables.
+fn places(captured: &[Inputs<'_>], path: &Path, named: Sink) -> std::result::Result<Vec<Sink>, Failure> {
+    if captured.len() == 1 {
+        return Ok(vec![named]);
+    }
+    let Some(stem) = path.file_stem().filter(|_| !matches!(named, Sink::Stdout(_))) else {
+        let names: Vec<&str> = captured.iter().map(|inputs| inputs.program.name.as_str()).collect();
+        let message = format!("the inputs of {} do not go to one place", technique::and(&names));
+        return Err(Failure::bare("", Diagnostic::error(codes::RENDER, message).help("name a file")));
+    };
+    let place = |inputs: &Inputs<'_>| {
+        let mut name = stem.to_owned();
+        name.push(format!("-{}", inputs.program.name));
+        if let Some(extension) = path.extension() {
+            name.push(".");
+            name.push(extension);
+        }
+        Sink::create(&path.with_file_name(name))
+    };
+    captured.iter().map(place).collect()
+}
+
 fn format_of(path: &Path) -> Option<ImageFormat> {
     match (has_extension(path, "png"), has_extension(path, "exr")) {
         (true, _) => Some(ImageFormat::Png),
@@ -172,12 +196,9 @@ fn contact(frame: &Frame<'_>, answers: &[Answer<'_>]) -> std::result::Result<Rgb
     for answer in answers {
         let mut label = answer.technique.name().to_owned();
         let truth = answers.iter().find(|other| Some(other.technique.name()) == answer.technique.truth());
-        let truth = truth.and_then(|truth| truth.rendered.numbers(VALUE));
-        if let (Some(truth), Some(value)) = (truth, answer.rendered.numbers(VALUE)) {
-            let weights = shade::contribution(&frame.scene.punctual(answer.technique.name())?, &frame.surfaces);
-            let region = Region::surfaces(&frame.surfaces, &weights);
-            let found = difference(&frame.surfaces, value, truth, &region);
-            label += &format!(", RMSE {:.4}", found.rmse);
+        let error = truth.map(|truth| error(frame, answer, &truth.rendered)).transpose()?.flatten();
+        if let Some(error) = error {
+            label += &format!(", RMSE {error:.4}");
         }
         let picture = srgb::encode(&shade::picture(frame, &answer.rendered)?);
         entries.push(Entry { label, picture });
@@ -185,6 +206,17 @@ fn contact(frame: &Frame<'_>, answers: &[Answer<'_>]) -> std::result::Result<Rgb
     let techniques: Vec<TechniqueArgument> = answers.iter().map(|answer| answer.technique).collect();
     let title = format!("{}: {}", frame.scene.title, frame.describe(&techniques));
     sheet::contact(&title, &entries)
+}
+
+/// How far an answer is from the true one, by a layer that both have.
+fn error(frame: &Frame<'_>, answer: &Answer<'_>, truth: &Rendered) -> std::result::Result<Option<f64>, Failure> {
+    let (surfaces, rendered) = (&frame.surfaces, &answer.rendered);
+    if let (Some(truth), Some(value)) = (truth.numbers(VALUE), rendered.numbers(VALUE)) {
+        let weights = shade::contribution(&frame.scene.punctual(answer.technique.name())?, surfaces);
+        return Ok(Some(difference(surfaces, value, truth, &Region::surfaces(surfaces, &weights)).rmse));
+    }
+    let light = rendered.colours(LIGHT).zip(truth.colours(LIGHT));
+    Ok(light.map(|(light, truth)| of_light(surfaces, light, truth)))
 }
 
 /// A finished picture.

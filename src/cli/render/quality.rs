@@ -18,7 +18,7 @@ use crate::picture::{self, plot};
 use crate::scene::Scene;
 use crate::technique::difference::{Difference, NEAR, Region, difference};
 use crate::technique::rendered::VALUE;
-use crate::technique::{self, Executor, Frame, Prepared, Rendered, shade};
+use crate::technique::{self, Ability, Executor, Frame, Prepared, Rendered, Technique, shade};
 use crate::text::file::shown;
 
 /// Arguments of `umbrage quality`.
@@ -27,7 +27,7 @@ pub(in crate::cli) struct Arguments {
     /// The scenes, names or scene files [default: all that come with Umbrage]
     #[arg(long, value_name = "SCENES", value_delimiter = ',')]
     scenes: Vec<String>,
-    /// The techniques [default: all that a true picture is known for]
+    /// The techniques [default: all whose true visibility is known]
     #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = technique_parser(),
           hide_possible_values = true)]
     techniques: Vec<TechniqueArgument>,
@@ -110,12 +110,16 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
 
 /// The techniques that are measured, true pictures left out.
 fn techniques(arguments: &Arguments) -> std::result::Result<Vec<TechniqueArgument>, Failure> {
+    for technique in &arguments.techniques {
+        technique::require(*technique, Ability::Visibility, "quality")?;
+    }
     let asked = if arguments.techniques.is_empty() { technique::ALL } else { &arguments.techniques };
-    let measured: Vec<TechniqueArgument> =
-        asked.iter().copied().filter(|technique| technique.truth().is_some()).collect();
+    let has_truth =
+        |technique: &dyn Technique| technique.truth().is_some() && technique.abilities().contains(&Ability::Visibility);
+    let measured: Vec<TechniqueArgument> = asked.iter().copied().filter(|technique| has_truth(*technique)).collect();
     if measured.is_empty() {
         let message = "no true picture is known for the techniques that were named";
-        let with = technique::names(|technique| technique.truth().is_some());
+        let with = technique::names(has_truth);
         let error = Diagnostic::error(codes::NOT_APPLICABLE, message);
         return Err(Failure::bare("", error.help(format!("techniques with one are {}", technique::and(&with)))));
     }

@@ -10,6 +10,7 @@ use crate::diag::Failure;
 use crate::gpu::timing::Stopwatch;
 use crate::program::Program;
 use crate::scene::Scene;
+use crate::technique::prepared::Watch;
 use crate::technique::{Executor, Frame, Settings, revectorise::SHADOW_MAP, setting::Value};
 use crate::tune::Tuning;
 use crate::tune::whole::{Whole, technique, whole};
@@ -31,7 +32,7 @@ pub(super) fn measure(
     let technique = technique(program)?;
     let size = arguments.size.unwrap_or(if gpu.is_software() { (480, 270) } else { (1920, 1080) });
     let settings = Settings::default().with(&SHADOW_MAP, Value::Whole(arguments.shadow_map));
-    let watch = if arguments.wall_clock { Stopwatch::wall(gpu) } else { Stopwatch::new(gpu) };
+    let watch = Watch::Device(if arguments.wall_clock { Stopwatch::wall(gpu) } else { Stopwatch::new(gpu) });
     let mut measured = Vec::new();
     for name in &arguments.scene {
         let scene = Scene::open(name)?;

@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
-use super::picture::shade;
-use super::{NAME, Settings, Shaded, Surface, Surroundings, Tables};
+use super::picture::{inputs, shade};
+use super::seen::Seen;
+use super::{NAME, Settings, Shaded, Tables, brute_force};
 use crate::diag::Failure;
+#[cfg(feature = "gpu")]
+use crate::gpu::timing::Stopwatch;
 use crate::scene::light::Lights;
-use crate::scene::rays::Rays;
-use crate::scene::surfaces::Surfaces;
+#[cfg(feature = "gpu")]
+use crate::technique::prepared::{Detail, Pass};
 use crate::technique::rendered::LIGHT;
 use crate::technique::setting::{Range, Value};
 use crate::technique::tables::{self, BuiltIn};
-use crate::technique::{Ability, Executor, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
+use crate::technique::{Ability, Executor, Frame, Inputs, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
 /// [`Settings::border`]
 pub const BORDER: Setting = Setting {
@@ -76,11 +79,11 @@ impl Technique for Entry {
     }
 
     fn abilities(&self) -> &'static [Ability] {
-        &[]
+        &[Ability::Inputs, Ability::Passes]
     }
 
     fn truth(&self) -> Option<&'static str> {
-        None
+        Some(brute_force::NAME)
     }
 
     fn prepare<'s>(&self, frame: &Frame<'s>) -> Result<Box<dyn Prepared<'s> + 's>, Failure> {
@@ -92,10 +95,7 @@ impl Technique for Entry {
 struct Integrals<'s> {
     shader: Shader<'s>,
     tables: Tables,
-    surroundings: Surroundings,
-    surfaces: Vec<Option<Surface>>,
-    background: [f32; 3],
-    height: u32,
+    seen: Arc<Seen>,
     settings: Settings,
 }
 
@@ -110,48 +110,79 @@ enum Shader<'s> {
     Never(&'s std::convert::Infallible),
 }
 
+fn settings(frame: &Frame<'_>) -> Settings {
+    Settings {
+        border: frame.settings.number(&BORDER),
+        lobe: frame.settings.number(&LOBE),
+        depth: frame.settings.whole(&DEPTH),
+    }
+}
+
 impl<'s> Integrals<'s> {
     fn new(frame: &Frame<'s>) -> Result<Self, Failure> {
-        let tables = Tables::new()?;
-        let surroundings = Surroundings::new(frame.scene)?;
+        let (tables, seen) = (Tables::new()?, Seen::of(frame)?);
         let shader = match frame.on {
             Executor::Cpu => Shader::Interpreter,
             #[cfg(feature = "gpu")]
-            Executor::Gpu(gpu) => Shader::Gpu(super::gpu::LightPipeline::new(gpu, &tables, &surroundings)?),
+            Executor::Gpu(gpu) => Shader::Gpu(super::gpu::LightPipeline::new(gpu, &tables, &seen.surroundings)?),
         };
-        // Balls are traced exactly, so the surfaces of the frame, which are triangles, do not do.
-        let rays: Arc<Rays> = frame.shared("exact", || Ok(Rays::exact(frame.scene)))?;
-        let (width, height) = frame.size();
-        let surfaces = surroundings.surfaces(&rays, &Surfaces::new(frame.scene, &rays, width, height));
-        let settings = Settings {
-            border: frame.settings.number(&BORDER),
-            lobe: frame.settings.number(&LOBE),
-            depth: frame.settings.whole(&DEPTH),
-        };
-        let background = frame.scene.background.map(|channel| channel as f32);
-        Ok(Self { shader, tables, surroundings, surfaces, background, height, settings })
+        Ok(Self { shader, tables, seen, settings: settings(frame) })
+    }
+
+    fn shade(&self) -> Result<Shaded, Failure> {
+        let Seen { surroundings, surfaces, .. } = &*self.seen;
+        match &self.shader {
+            Shader::Interpreter => shade(surroundings, &self.tables, &self.settings, surfaces),
+            #[cfg(feature = "gpu")]
+            Shader::Gpu(pipeline) => pipeline.shade(surroundings, &self.settings, surfaces),
+            #[cfg(not(feature = "gpu"))]
+            Shader::Never(never) => match **never {},
+        }
     }
 }
 
 impl<'s> Prepared<'s> for Integrals<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
-        let Shaded { light, cells, edges } = match &self.shader {
-            Shader::Interpreter => shade(&self.surroundings, &self.tables, &self.settings, &self.surfaces)?,
-            #[cfg(feature = "gpu")]
-            Shader::Gpu(pipeline) => pipeline.shade(&self.surroundings, &self.settings, &self.surfaces)?,
-            #[cfg(not(feature = "gpu"))]
-            Shader::Never(never) => match **never {},
-        };
-        progress(u64::from(self.height));
-        let colour = |light: Option<glam::DVec3>| light.map_or(self.background, |light| light.as_vec3().to_array());
+        let Shaded { light, cells, edges } = self.shade()?;
+        progress(u64::from(self.seen.height));
         Ok(Rendered::default()
-            .with(LIGHT, Samples::Colours(light.into_iter().map(colour).collect()))
+            .with(LIGHT, self.seen.layer(light))
             .with(CELLS, Samples::Counts(cells))
             .with(EDGES, Samples::Counts(edges)))
     }
 
     fn set_frame(&mut self, frame: &Frame<'s>) -> Result<(), Failure> {
-        *self = Self::new(frame)?;
+        let seen = Seen::of(frame)?;
+        let fits = match &self.shader {
+            Shader::Interpreter => true,
+            #[cfg(feature = "gpu")]
+            Shader::Gpu(pipeline) => pipeline.fits(&seen.surroundings),
+            #[cfg(not(feature = "gpu"))]
+            Shader::Never(never) => match **never {},
+        };
+        if fits {
+            (self.seen, self.settings) = (seen, settings(frame));
+        } else {
+            *self = Self::new(frame)?;
+        }
         Ok(())
+    }
+
+    fn inputs(&mut self) -> Result<Vec<Inputs<'s>>, Failure> {
+        inputs(&self.seen.surroundings, &self.tables, &self.settings, &self.seen.surfaces)
+    }
+
+    #[cfg(feature = "gpu")]
+    fn passes(&mut self, _: Detail) -> Result<Vec<Pass<'_>>, Failure> {
+        let Seen { surroundings, surfaces, .. } = &*self.seen;
+        Ok(vec![match &self.shader {
+            Shader::Interpreter => Pass::on_cpu(NAME, "light", || self.shade().map(drop)),
+            Shader::Gpu(pipeline) => {
+                let portions = pipeline.bind(surroundings, &self.settings, surfaces)?;
+                let time =
+                    move |stopwatch: &Stopwatch<'_>| portions.iter().map(|one| pipeline.time(one, stopwatch)).sum();
+                Pass::new(NAME, "compute", None, time)
+            }
+        }])
     }
 }

@@ -4,6 +4,7 @@
 
 use std::fmt::Write;
 use std::iter::once;
+use std::time::Duration;
 
 use encase::ShaderType;
 use glam::{UVec4, Vec3};
@@ -12,21 +13,43 @@ use super::tables::Tables;
 use super::{Body, Settings, Shaded, Surface, Surroundings};
 use crate::diag::Failure;
 use crate::emit::{self, wgsl_module};
-use crate::gpu::pass::{Compute, Module, Resources};
-use crate::gpu::{Gpu, laid_out};
+use crate::gpu::pass::{Bound, Compute, Module, Resources, Work};
+use crate::gpu::timing::Stopwatch;
+use crate::gpu::{Buffer, Gpu, laid_out};
 use crate::plan::{Plan, Shape};
 use crate::skeleton;
 
 /// Surfaces of one run: many, but little work compared to what a driver takes for a hang.
 const PORTION: usize = 1 << 16;
 
+/// Bytes of the light at a surface: three channels, and two counts in one word.
+const LIT: u64 = 16;
+
 /// The shader of scenes of one shape.
 #[derive(Debug)]
-pub struct LightPipeline<'g> {
+pub(super) struct LightPipeline<'g> {
     gpu: &'g Gpu,
     module: Module,
     compute: Compute,
-    balls: usize,
+    counts: [usize; 4],
+}
+
+/// The constants of the skeleton that say what a scene is made of.
+const COUNTED: [&str; 4] = ["BALLS", "PLATES", "CORNERS", "LOBES"];
+
+/// How many there are of each of [`COUNTED`]: the shape of a scene.
+fn counts(scene: &Surroundings) -> [usize; 4] {
+    let corners = scene.plates.iter().map(|plate| plate.corners.len()).sum();
+    [scene.balls.len(), scene.plates.len(), corners, scene.lobes.len()]
+}
+
+/// Some surfaces on the device, and the place of their light.
+#[derive(Debug)]
+pub(super) struct Portion {
+    bound: Bound,
+    work: Work<'static>,
+    lit: Buffer,
+    surfaces: usize,
 }
 
 impl<'g> LightPipeline<'g> {
@@ -34,54 +57,45 @@ impl<'g> LightPipeline<'g> {
     ///
     /// # Errors
     /// When the device refuses the shader.
-    pub fn new(gpu: &'g Gpu, tables: &Tables, scene: &Surroundings) -> Result<Self, Failure> {
+    pub(super) fn new(gpu: &'g Gpu, tables: &Tables, scene: &Surroundings) -> Result<Self, Failure> {
         let mut source = String::new();
         for function in tables.for_shaders() {
             source += &emit::wgsl(&Plan::proved(function, Shape::Ladder)?);
             source.push('\n');
         }
-        let corners: usize = scene.plates.iter().map(|plate| plate.corners.len()).sum();
-        let counts = [
-            ("BALLS", scene.balls.len()),
-            ("PLATES", scene.plates.len()),
-            ("CORNERS", corners),
-            ("LOBES", scene.lobes.len()),
-        ];
-        for (name, count) in counts {
+        let counts = counts(scene);
+        for (name, count) in COUNTED.iter().zip(counts) {
             let _ = writeln!(source, "const {name}: u32 = {count}u;");
         }
         source += skeleton::INTEGRALS;
         let module = wgsl_module(tables.moments_of_pieces(), &source)?;
         let module = Module::new(gpu, "light", module)?;
         let compute = module.compute(gpu, module.only_compute()?, &[])?;
-        Ok(Self { gpu, module, compute, balls: scene.balls.len() })
+        Ok(Self { gpu, module, compute, counts })
+    }
+
+    /// Returns whether the shader was made for scenes of the shape of this one.
+    pub(super) fn fits(&self, scene: &Surroundings) -> bool {
+        self.counts == counts(scene)
     }
 
     /// Light, cells and edges at surfaces of a scene of the shape that the shader was made for.
     ///
     /// # Errors
     /// When the device fails.
-    pub fn shade(
+    pub(super) fn shade(
         &self,
         scene: &Surroundings,
         settings: &Settings,
         surfaces: &[Option<Surface>],
     ) -> Result<Shaded, Failure> {
-        let gpu = self.gpu;
-        let scene_buffer = gpu.storage("scene", &scene_bytes(scene, settings)?);
         let mut shaded = Shaded::default();
-        for portion in surfaces.chunks(PORTION) {
-            let rows: Vec<SurfaceRow> = portion.iter().map(|surface| self.row(surface.as_ref())).collect();
-            let surface_buffer = gpu.storage("surfaces", &laid_out("surfaces", &rows)?);
-            let size = 16 * portion.len() as u64;
-            let lit = gpu.results("lit", size);
-            let resources =
-                Resources::new().buffer("surfaces", &surface_buffer).buffer("scene", &scene_buffer).buffer("lit", &lit);
-            let bound = self.module.bind(gpu, &resources)?;
-            let work = self.compute.covering([portion.len() as u32, 1, 1]);
-            gpu.submit(|encoder| self.compute.encode(encoder, &bound, work, 1, None));
-            let rows = gpu.read_buffer(&lit, size, bytemuck::pod_collect_to_vec::<u8, [u32; 4]>)?;
-            for (surface, [x, y, z, counts]) in portion.iter().zip(rows) {
+        let mut left = surfaces.iter();
+        for portion in self.bind(scene, settings, surfaces)? {
+            self.gpu.submit(|encoder| self.compute.encode(encoder, &portion.bound, portion.work, 1, None));
+            let size = LIT * portion.surfaces as u64;
+            let rows = self.gpu.read_buffer(&portion.lit, size, bytemuck::pod_collect_to_vec::<u8, [u32; 4]>)?;
+            for ([x, y, z, counts], surface) in rows.into_iter().zip(left.by_ref()) {
                 let light = Vec3::from_array([x, y, z].map(f32::from_bits)).as_dvec3();
                 shaded.push(surface.as_ref().map(|surface| surface.sent(light)), counts & 0xffff, counts >> 16);
             }
@@ -89,12 +103,47 @@ impl<'g> LightPipeline<'g> {
         Ok(shaded)
     }
 
+    /// Puts surfaces onto the device, in portions of one run each.
+    ///
+    /// # Errors
+    /// When the device is out of memory or lost.
+    pub(super) fn bind(
+        &self,
+        scene: &Surroundings,
+        settings: &Settings,
+        surfaces: &[Option<Surface>],
+    ) -> Result<Vec<Portion>, Failure> {
+        let gpu = self.gpu;
+        let scene_buffer = gpu.storage("scene", &scene_bytes(scene, settings)?);
+        let portion = |portion: &[Option<Surface>]| {
+            let rows: Vec<SurfaceRow> = portion.iter().map(|surface| self.row(surface.as_ref())).collect();
+            let surface_buffer = gpu.storage("surfaces", &laid_out("surfaces", &rows)?);
+            let lit = gpu.results("lit", LIT * portion.len() as u64);
+            let resources =
+                Resources::new().buffer("surfaces", &surface_buffer).buffer("scene", &scene_buffer).buffer("lit", &lit);
+            let bound = self.module.bind(gpu, &resources)?;
+            let work = self.compute.covering([portion.len() as u32, 1, 1]);
+            Ok(Portion { bound, work, lit, surfaces: portion.len() })
+        };
+        surfaces.chunks(PORTION).map(portion).collect()
+    }
+
+    /// Runs a portion and measures it.
+    ///
+    /// # Errors
+    /// When the device fails.
+    pub(super) fn time(&self, portion: &Portion, stopwatch: &Stopwatch<'_>) -> Result<Duration, Failure> {
+        stopwatch.time(|encoder, marks| {
+            self.compute.encode(encoder, &portion.bound, portion.work, 1, marks.compute());
+        })
+    }
+
     fn row(&self, surface: Option<&Surface>) -> SurfaceRow {
         let Some(surface) = surface else { return SurfaceRow::default() };
         let body = match surface.body {
             Body::Ground => u32::MAX,
             Body::Ball(index) => index as u32,
-            Body::Plate(index) => (self.balls + index) as u32,
+            Body::Plate(index) => (self.counts[0] + index) as u32,
         };
         SurfaceRow { place: surface.place.as_vec3(), body, normal: surface.normal.as_vec3(), seen: 1 }
     }

@@ -15,15 +15,18 @@
 //! The subdivision is a reconstruction: the publication's algorithm was not
 //! available. What is known and what is not says `docs/integrals.md`.
 
+pub mod brute_force;
 pub mod cells;
 mod entry;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod picture;
+mod seen;
 mod surroundings;
 mod tables;
 mod visibility;
 
+pub use brute_force::{BRUTE_FORCE, DIRECTIONS};
 pub use entry::{BORDER, CELLS, DEPTH, EDGES, Entry, INTEGRALS, LOBE};
 pub use surroundings::{Ball, Body, Lobe, Plate, Surface, Surroundings};
 pub use visibility::{Cap, Facet, Occluders};

@@ -1,16 +1,17 @@
 //! Pictures of a scene: by the tables, and by brute force.
 
 use std::f64::consts::{PI, TAU};
+use std::iter::repeat_n;
 
 use glam::DVec3;
-use image::{Rgb, Rgb32FImage, RgbImage};
+use image::{Rgb, RgbImage};
 use rayon::prelude::*;
 
 use super::cells::{Division, Edge, divide};
 use super::tables::Interpreters;
 use super::{Lobe, Settings, Surface, Surroundings, Tables};
-use crate::diag::Failure;
-use crate::picture::srgb;
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::technique::Inputs;
 
 /// Points whose edges are evaluated together.
 const PORTION: usize = 2048;
@@ -81,22 +82,9 @@ fn shade_some(
     surfaces: &[Option<Surface>],
     shaded: &mut Shaded,
 ) -> Result<(), Failure> {
-    let division = |surface: &Option<Surface>| match surface {
-        Some(surface) => divide(surface.normal, &scene.occluders(surface), &scene.lobes, settings),
-        None => Division::default(),
-    };
-    let divisions: Vec<Division> = surfaces.par_iter().map(division).collect();
-    // One after the other in one list, so that each table is evaluated once.
-    let mut all = Division::default();
-    let mut ends = Vec::with_capacity(surfaces.len());
-    for division in divisions {
-        let first = all.cells.len();
-        all.edges.extend(division.edges.into_iter().map(|edge| Edge { cell: edge.cell + first, ..edge }));
-        all.cells.extend(division.cells);
-        ends.push((all.cells.len(), all.edges.len()));
-    }
-    let lines = tables.lines(interpreters, &all.cells, &scene.lobes)?;
-    let moments = tables.moments(interpreters, &all.edges)?;
+    let Divided { all, ends } = divided(scene, settings, surfaces);
+    let lines = tables.lines(interpreters, &tables.line_inputs(&all.cells, &scene.lobes)?)?;
+    let moments = tables.moments(interpreters, &tables.moment_inputs(&all.edges)?)?;
     let (mut cell, mut edge) = (0, 0);
     for (surface, (last_cell, last_edge)) in surfaces.iter().zip(ends) {
         let light = surface.as_ref().map(|surface| {
@@ -114,6 +102,71 @@ fn shade_some(
         (cell, edge) = (last_cell, last_edge);
     }
     Ok(())
+}
+
+/// The divisions at some surfaces, in one list, so that each table is evaluated once.
+struct Divided {
+    all: Division,
+    /// For each surface the ends of its cells and of its edges.
+    ends: Vec<(usize, usize)>,
+}
+
+fn divided(scene: &Surroundings, settings: &Settings, surfaces: &[Option<Surface>]) -> Divided {
+    let division = |surface: &Option<Surface>| match surface {
+        Some(surface) => divide(surface.normal, &scene.occluders(surface), &scene.lobes, settings),
+        None => Division::default(),
+    };
+    let divisions: Vec<Division> = surfaces.par_iter().map(division).collect();
+    let mut all = Division::default();
+    let mut ends = Vec::with_capacity(surfaces.len());
+    for division in divisions {
+        let first = all.cells.len();
+        all.edges.extend(division.edges.into_iter().map(|edge| Edge { cell: edge.cell + first, ..edge }));
+        all.cells.extend(division.cells);
+        ends.push((all.cells.len(), all.edges.len()));
+    }
+    Divided { all, ends }
+}
+
+/// Most rows of a capture: about a hundred thousand pixels have as many edges.
+const MAX_ROWS: usize = 1 << 24;
+
+/// The inputs of each function at surfaces, one after the other.
+///
+/// # Errors
+/// When there are too many for a capture.
+pub(super) fn inputs<'p>(
+    scene: &Surroundings,
+    tables: &Tables,
+    settings: &Settings,
+    surfaces: &[Option<Surface>],
+) -> Result<Vec<Inputs<'p>>, Failure> {
+    let mut all = tables.nothing();
+    let mut pixel = 0..;
+    for portion in surfaces.chunks(PORTION) {
+        let Divided { all: division, ends } = divided(scene, settings, portion);
+        let lines = tables.line_inputs(&division.cells, &scene.lobes)?;
+        let moments = tables.moment_inputs(&division.edges)?;
+        let (mut cell, mut edge) = (0, 0);
+        let mut pixels = [Vec::new(), Vec::new()];
+        for ((last_cell, last_edge), pixel) in ends.into_iter().zip(pixel.by_ref()) {
+            pixels[0].extend(repeat_n(pixel, last_edge - edge));
+            pixels[1].extend(repeat_n(pixel, (last_cell - cell) * scene.lobes.len()));
+            (cell, edge) = (last_cell, last_edge);
+        }
+        for (inputs, (columns, pixels)) in
+            all.iter_mut().zip([(&moments, &pixels[0]), (&lines, &pixels[1]), (&lines, &pixels[1])])
+        {
+            inputs.columns.append(columns);
+            inputs.pixels.extend(pixels);
+            if inputs.pixels.len() > MAX_ROWS {
+                let message = format!("`{}` is evaluated more than {MAX_ROWS} times", inputs.program.name);
+                let error = Diagnostic::error(codes::RENDER, message);
+                return Err(Failure::bare("", error.help("capture a smaller picture")));
+            }
+        }
+    }
+    Ok(all)
 }
 
 /// The light at a surface by a sum over these directions.
@@ -142,13 +195,6 @@ pub fn directions(lobes: &[Lobe], fineness: u32) -> Vec<(DVec3, DVec3)> {
         (direction, lobes.iter().map(|lobe| lobe.value(direction)).sum::<DVec3>() * solid)
     };
     (0..fineness * around).map(direction).collect()
-}
-
-/// The picture of light as the eye sees it, before a background where nothing is hit.
-pub fn developed(width: u32, height: u32, light: &[Option<DVec3>], background: [f64; 3]) -> RgbImage {
-    let light = |x: u32, y: u32| light.get((y * width + x) as usize).copied().flatten();
-    let seen = |x: u32, y: u32| Rgb(light(x, y).unwrap_or(DVec3::from_array(background)).as_vec3().to_array());
-    srgb::encode(&Rgb32FImage::from_fn(width, height, seen))
 }
 
 /// A map of counts: black for none, through blue and orange to white for `most`.

@@ -7,6 +7,7 @@ use super::cells::{Cell, Edge};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::{Batch, Column, Columns, Results};
 use crate::program::{Input, Program};
+use crate::technique::Inputs;
 use crate::technique::tables::{DOUBLE_PRODUCT, SPHERICAL_GAUSSIAN};
 
 /// The names of the numbers of the function of moments: ∫∫ ω, then ∫∫ ω ω.
@@ -91,35 +92,52 @@ impl Tables {
         Columns::from_columns(program, columns).map_err(|error| wrong(format!("`{}`: {error}", program.name)))
     }
 
-    /// The linear approximations of all lobes in all cells, cell by cell.
-    pub(super) fn lines(
-        &self,
-        interpreters: &mut Interpreters<'_>,
-        cells: &[Cell],
-        lobes: &[Lobe],
-    ) -> Result<Vec<Line>, Failure> {
+    /// No inputs yet, of moments, alpha and beta.
+    pub(super) fn nothing<'p>(&self) -> Vec<Inputs<'p>> {
+        let none = |program| Inputs { program, columns: Columns::new(program), pixels: Vec::new() };
+        [self.moments, self.alpha, self.beta].map(none).into()
+    }
+
+    /// The inputs of alpha and beta: of all lobes in all cells, cell by cell.
+    pub(super) fn line_inputs(&self, cells: &[Cell], lobes: &[Lobe]) -> Result<Columns<f32>, Failure> {
         // The largest value is 1; colours are applied later.
         let rows = cells
             .iter()
             .flat_map(|cell| lobes.iter().zip(&cell.ranges).map(|(lobe, (a, b))| [1.0, lobe.sharpness, *a, *b]));
-        let columns = Self::columns(self.alpha, ["mu", "lambda", "a", "b"], rows)?;
-        let alpha = evaluate(&mut interpreters.alpha, &columns)?;
-        let beta = evaluate(&mut interpreters.beta, &columns)?;
+        Self::columns(self.alpha, ["mu", "lambda", "a", "b"], rows)
+    }
+
+    /// The linear approximations at such inputs.
+    pub(super) fn lines(
+        &self,
+        interpreters: &mut Interpreters<'_>,
+        columns: &Columns<f32>,
+    ) -> Result<Vec<Line>, Failure> {
+        let alpha = evaluate(&mut interpreters.alpha, columns)?;
+        let beta = evaluate(&mut interpreters.beta, columns)?;
         let lines = alpha.values(0).iter().zip(beta.values(0));
         Ok(lines.map(|(alpha, beta)| (f64::from(*alpha), f64::from(*beta))).collect())
     }
 
-    /// The moments of all edges.
-    pub(super) fn moments(&self, interpreters: &mut Interpreters<'_>, edges: &[Edge]) -> Result<Vec<Moments>, Failure> {
+    /// The inputs of the moments of all edges.
+    pub(super) fn moment_inputs(&self, edges: &[Edge]) -> Result<Columns<f32>, Failure> {
         let names = ["phi0", "phi1", "theta0", "theta_a", "theta_b"];
         let rows = edges.iter().map(|edge| {
             let [a, b] = edge.ends;
             [a.x, b.x, edge.theta, a.y, b.y]
         });
-        let columns = Self::columns(self.moments, names, rows)?;
-        let results = evaluate(&mut interpreters.moments, &columns)?;
+        Self::columns(self.moments, names, rows)
+    }
+
+    /// The moments at such inputs.
+    pub(super) fn moments(
+        &self,
+        interpreters: &mut Interpreters<'_>,
+        columns: &Columns<f32>,
+    ) -> Result<Vec<Moments>, Failure> {
+        let results = evaluate(&mut interpreters.moments, columns)?;
         let number = |which: usize, edge: usize| f64::from(results.values(self.order[which])[edge]);
-        Ok((0..edges.len())
+        Ok((0..columns.len())
             .map(|edge| Moments {
                 first: DVec3::new(number(0, edge), number(1, edge), number(2, edge)),
                 second: std::array::from_fn(|i| number(3 + i, edge)),

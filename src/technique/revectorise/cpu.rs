@@ -59,7 +59,7 @@ impl Decision {
 /// use umbrage::technique::tables;
 ///
 /// let scene = Scene::open("slope")?;
-/// let stage = Stage::new(&scene)?;
+/// let stage = Stage::new(&scene, "smsr")?;
 /// let map = stage.shadow_map(64, Bias::default());
 /// let receivers = stage.receivers(&stage.surfaces(32, 18), map.size);
 /// let query = Query { map: &map, receivers: &receivers, settings: &Settings::default() };

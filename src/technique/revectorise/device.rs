@@ -78,7 +78,7 @@ impl<'s> OnGpu<'s> {
         let table = Planned::of(variant, frame)?;
         let proved = table.as_ref().map(Planned::proved);
         let record = Shader::new(gpu, variant, proved, Skeleton::EXACT, Output::Record)?;
-        let (shadow, on_device) = Self::bind(gpu, frame)?;
+        let (shadow, on_device) = Self::bind(variant, gpu, frame)?;
         Ok(Self {
             gpu,
             variant,
@@ -93,8 +93,8 @@ impl<'s> OnGpu<'s> {
     }
 
     /// The map and the receivers, here and on the device.
-    fn bind(gpu: &Gpu, frame: &Frame<'s>) -> Result<(Arc<Shadow>, Arc<GpuFrame>), Failure> {
-        let shadow = Shadow::of(frame)?;
+    fn bind(variant: Variant, gpu: &Gpu, frame: &Frame<'s>) -> Result<(Arc<Shadow>, Arc<GpuFrame>), Failure> {
+        let shadow = Shadow::of(frame, variant)?;
         let on_device = frame.shared(Shadow::key(frame), || GpuFrame::new(gpu, &shadow.map, &shadow.receivers))?;
         Ok((shadow, on_device))
     }
@@ -142,7 +142,7 @@ impl<'s> Prepared<'s> for OnGpu<'s> {
             *self = Self::new(self.variant, self.gpu, frame)?;
             return Ok(());
         }
-        (self.shadow, self.frame) = Self::bind(self.gpu, frame)?;
+        (self.shadow, self.frame) = Self::bind(self.variant, self.gpu, frame)?;
         self.settings = settings(frame);
         Ok(())
     }

@@ -1,13 +1,21 @@
 //! The variants as techniques: entries of the registry, and the executor that interprets.
 
+#[cfg(feature = "gpu")]
+use std::rc::Rc;
 use std::sync::Arc;
 
+#[cfg(feature = "gpu")]
+use super::settings::bias;
 use super::settings::{BIAS, PCF_KERNEL, PLAN, SEARCH_LIMIT, SHADOW_MAP, SLOPE_BIAS, WALK_BIAS, settings};
 use super::shadow::{Shadow, inputs, layers};
-use super::{Settings, Variant, cpu};
+#[cfg(feature = "gpu")]
+use super::stage::Stage;
+use super::{Variant, Visibility, cpu};
 use crate::diag::Failure;
 use crate::program::Program;
 use crate::scene::light::Lights;
+#[cfg(feature = "gpu")]
+use crate::technique::prepared::{Detail, Pass};
 use crate::technique::tables::{self, BuiltIn};
 use crate::technique::{Ability, Executor, Frame, Inputs, Prepared, Progress, Rendered, Setting, Technique, reference};
 
@@ -22,7 +30,7 @@ pub struct Entry {
 }
 
 /// Of a variant that evaluates a table at each pixel.
-const OF_TABLE: &[Ability] = &[Ability::Cases, Ability::Inputs, Ability::Passes, Ability::Plans];
+const OF_TABLE: &[Ability] = &[Ability::Visibility, Ability::Cases, Ability::Inputs, Ability::Passes, Ability::Plans];
 
 /// One depth test per pixel.
 pub static HARD: Entry = Entry {
@@ -30,7 +38,7 @@ pub static HARD: Entry = Entry {
     doc: "one depth test: jagged where texels are large",
     tables: &[],
     settings: &[SHADOW_MAP, BIAS, SLOPE_BIAS],
-    abilities: &[Ability::Passes],
+    abilities: &[Ability::Visibility, Ability::Passes],
 };
 
 /// Percentage-closer filtering.
@@ -39,7 +47,7 @@ pub static PCF: Entry = Entry {
     doc: "percentage-closer filtering: the mean of n x n depth tests",
     tables: &[],
     settings: &[SHADOW_MAP, BIAS, SLOPE_BIAS, PCF_KERNEL],
-    abilities: &[Ability::Passes],
+    abilities: &[Ability::Visibility, Ability::Passes],
 };
 
 /// Silhouette revectorisation.
@@ -66,7 +74,7 @@ pub static RPCF: Entry = Entry {
     doc: "the mean of n x n results of rsmss",
     tables: &[&tables::RSMSS],
     settings: &[SHADOW_MAP, BIAS, SLOPE_BIAS, SEARCH_LIMIT, WALK_BIAS, PCF_KERNEL, PLAN],
-    abilities: &[Ability::Cases, Ability::Inputs, Ability::Passes],
+    abilities: &[Ability::Visibility, Ability::Cases, Ability::Inputs, Ability::Passes],
 };
 
 /// The formulation without cases.
@@ -75,7 +83,7 @@ pub static CASE_FREE: Entry = Entry {
     doc: "the filtered formulation without cases that the authors published later",
     tables: &[],
     settings: &[SHADOW_MAP, BIAS, SLOPE_BIAS, SEARCH_LIMIT, WALK_BIAS],
-    abilities: &[Ability::Passes],
+    abilities: &[Ability::Visibility, Ability::Passes],
 };
 
 impl Technique for Entry {
@@ -120,22 +128,27 @@ impl Technique for Entry {
 struct OnCpu<'s> {
     variant: Variant,
     program: Option<&'s Program>,
+    frame: Frame<'s>,
     shadow: Arc<Shadow>,
-    settings: Settings,
 }
 
 impl<'s> OnCpu<'s> {
     fn new(variant: Variant, frame: &Frame<'s>) -> Result<Self, Failure> {
         let program = variant.table().map(|table| frame.program(table)).transpose()?;
-        Ok(Self { variant, program, shadow: Shadow::of(frame)?, settings: settings(frame) })
+        let shadow = Shadow::of(frame, variant)?;
+        Ok(Self { variant, program, frame: frame.clone(), shadow })
+    }
+
+    fn visibility(&self, progress: &Progress<'_>) -> Result<Visibility, Failure> {
+        let Shadow { map, receivers } = &*self.shadow;
+        let query = cpu::Query { map, receivers, settings: &settings(&self.frame) };
+        cpu::visibility(self.variant, self.program, query, progress)
     }
 }
 
 impl<'s> Prepared<'s> for OnCpu<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
-        let Shadow { map, receivers } = &*self.shadow;
-        let query = cpu::Query { map, receivers, settings: &self.settings };
-        Ok(layers(cpu::visibility(self.variant, self.program, query, progress)?, self.program.is_some()))
+        Ok(layers(self.visibility(progress)?, self.program.is_some()))
     }
 
     fn set_frame(&mut self, frame: &Frame<'s>) -> Result<(), Failure> {
@@ -148,7 +161,28 @@ impl<'s> Prepared<'s> for OnCpu<'s> {
     }
 
     fn inputs(&mut self) -> Result<Vec<Inputs<'s>>, Failure> {
-        let program = self.program.map(|program| inputs(program, &self.shadow, &self.settings));
+        let program = self.program.map(|program| inputs(program, &self.shadow, &settings(&self.frame)));
         program.unwrap_or_else(|| Ok(Vec::new()))
+    }
+
+    #[cfg(feature = "gpu")]
+    fn passes(&mut self, _: Detail) -> Result<Vec<Pass<'_>>, Failure> {
+        let name = self.variant.name();
+        let stage = Rc::new(Stage::with_rays(self.frame.scene, Arc::clone(&self.frame.rays), name)?);
+        let (size, bias) = (self.frame.settings.whole(&SHADOW_MAP), bias(&self.frame));
+        let (seen_by_light, surfaces) = (Rc::clone(&stage), &self.frame.surfaces);
+        let shadow_map = move || {
+            seen_by_light.shadow_map(size, bias);
+            Ok(())
+        };
+        let receivers = move || {
+            stage.receivers(surfaces, size);
+            Ok(())
+        };
+        Ok(vec![
+            Pass::on_cpu(name, "shadow map", shadow_map),
+            Pass::on_cpu(name, "receivers", receivers),
+            Pass::on_cpu(name, "visibility", || self.visibility(&|_| {}).map(drop)),
+        ])
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::settings::{SHADOW_MAP, bias};
 use super::stage::{Bias, Stage};
-use super::{Receivers, Settings, ShadowMap, Visibility, cpu};
+use super::{Receivers, Settings, ShadowMap, Variant, Visibility, cpu};
 use crate::diag::Failure;
 use crate::program::Program;
 use crate::technique::rendered::{CASE, STATE, VALUE};
@@ -25,10 +25,10 @@ impl Shadow {
         (frame.settings.whole(&SHADOW_MAP), [constant, slope].map(f32::to_bits), frame.by_rays)
     }
 
-    /// The shadow map and the receivers of a frame, made once for all variants.
-    pub(super) fn of(frame: &Frame<'_>) -> Result<Arc<Self>, Failure> {
+    /// The shadow map and the receivers of a frame, made once for all variants, by the one that asks first.
+    pub(super) fn of(frame: &Frame<'_>, variant: Variant) -> Result<Arc<Self>, Failure> {
         frame.shared(Self::key(frame), || {
-            let stage = Stage::with_rays(frame.scene, Arc::clone(&frame.rays))?;
+            let stage = Stage::with_rays(frame.scene, Arc::clone(&frame.rays), variant.name())?;
             let size = frame.settings.whole(&SHADOW_MAP);
             let map = match frame.on {
                 #[cfg(feature = "gpu")]

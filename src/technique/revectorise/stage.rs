@@ -54,20 +54,20 @@ pub struct Stage<'s> {
 }
 
 impl<'s> Stage<'s> {
-    /// Prepares a scene and the first of its lights that a shadow map can show.
+    /// Prepares a scene and the first of its lights that a shadow map can show, for a technique of this name.
     ///
     /// # Errors
-    /// When there is no such light.
-    pub fn new(scene: &'s Scene) -> Result<Self, Failure> {
-        Self::with_rays(scene, Arc::new(Rays::new(scene)))
+    /// When there is no such light: the message says that the technique takes none.
+    pub fn new(scene: &'s Scene, technique: &str) -> Result<Self, Failure> {
+        Self::with_rays(scene, Arc::new(Rays::new(scene)), technique)
     }
 
     /// The same with rays that were made before.
     ///
     /// # Errors
-    /// When there is no such light.
-    pub fn with_rays(scene: &'s Scene, rays: Arc<Rays>) -> Result<Self, Failure> {
-        let light = scene.punctual("shadow map")?;
+    /// As [`Stage::new`].
+    pub fn with_rays(scene: &'s Scene, rays: Arc<Rays>, technique: &str) -> Result<Self, Failure> {
+        let light = scene.punctual(technique)?;
         let light_view = light.view(scene);
         let planes = rays.triangles().iter().map(|triangle| light_view.plane(triangle.corners)).collect();
         Ok(Self { scene, rays, light, light_view, planes })

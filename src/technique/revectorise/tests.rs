@@ -1,11 +1,12 @@
 //! Every variant on every scene: what it may change, and how far it is from the true shadow.
 
-use super::stage::{Bias, Stage};
-use super::{Settings, Variant, Visibility, cpu};
+use super::{SHADOW_MAP, Variant};
 use crate::scene::Scene;
 use crate::technique::difference::{Region, difference};
-use crate::technique::reference::{self, Samples};
-use crate::technique::shade;
+use crate::technique::reference::{FIRST_SAMPLES, MOST_SAMPLES, REFERENCE};
+use crate::technique::rendered::{CASE, NONE, STATE, VALUE};
+use crate::technique::setting::Value;
+use crate::technique::{self, Executor, Frame, Rendered, Settings, Technique, shade};
 
 const SIZE: (u32, u32) = (160, 90);
 
@@ -23,47 +24,51 @@ fn bounds(variant: Variant) -> (f64, f64) {
     }
 }
 
+fn rendered(frame: &Frame<'_>, technique: &dyn Technique) -> Rendered {
+    let rendered = frame.prepare(technique).and_then(|mut prepared| prepared.render(&|_| ()));
+    rendered.unwrap_or_else(|e| panic!("{technique}: {e}"))
+}
+
+/// The true visibility with so many samples.
+fn truth(frame: &Frame<'_>, first: u32, most: u32) -> Vec<f32> {
+    let samples = Settings::default().with(&FIRST_SAMPLES, Value::Whole(first)).with(&MOST_SAMPLES, Value::Whole(most));
+    rendered(&frame.with(samples), &REFERENCE).numbers(VALUE).expect("visibility").to_vec()
+}
+
 #[test]
 fn every_variant_on_every_scene() {
     let mut ratios = Variant::ALL.map(|_| Vec::new());
     for name in Scene::names() {
         let scene = Scene::open(name).unwrap_or_else(|e| panic!("{e}"));
-        let Ok(stage) = Stage::new(&scene) else { continue };
-        let surfaces = stage.surfaces(SIZE.0, SIZE.1);
-        let map = stage.shadow_map(256, Bias::default());
-        let receivers = stage.receivers(&surfaces, 256);
-        let settings = Settings::default();
-        let query = cpu::Query { map: &map, receivers: &receivers, settings: &settings };
-        let samples = Samples { first: 16, most: 64 };
-        let truth = reference::visibility(&scene, &stage.light, &stage.rays, &surfaces, samples, &|_| ());
-        let weights = shade::contribution(&stage.light, &surfaces);
-        let region = Region::silhouettes(&surfaces, &weights, &truth);
-        let seen: Vec<Visibility> = Variant::ALL
-            .iter()
-            .map(|variant| {
-                let program = variant.program().unwrap_or_else(|e| panic!("{e}"));
-                cpu::visibility(*variant, program, query, &|_| ()).unwrap_or_else(|e| panic!("{e}"))
-            })
-            .collect();
-        let of = |variant: Variant| &seen[variant as usize];
-        let error = |variant| difference(&surfaces, &of(variant).value, &truth, &region).rmse;
+        let Ok(light) = scene.punctual("every variant") else { continue };
+        let frame = Frame::new(&scene, SIZE, &Executor::Cpu);
+        let truth = truth(&frame, 16, 64);
+        let region = Region::silhouettes(&frame.surfaces, &shade::contribution(&light, &frame.surfaces), &truth);
+        let frame = frame.with(Settings::default().with(&SHADOW_MAP, Value::Whole(256)));
+        let seen = Variant::ALL.map(|variant| {
+            let technique = technique::from_name(variant.name()).unwrap_or_else(|e| panic!("{e}"));
+            rendered(&frame, technique)
+        });
+        let value = |variant: Variant| seen[variant as usize].numbers(VALUE).expect("visibility");
+        let error = |variant| difference(&frame.surfaces, value(variant), &truth, &region).rmse;
         for (index, variant) in Variant::ALL.into_iter().enumerate() {
-            let visibility = of(variant);
-            assert!(visibility.value.iter().all(|value| (0.0..=1.0).contains(value)), "{name} {variant}");
-            let cases = visibility.case.iter().filter(|case| **case != Visibility::NONE).count();
-            assert_eq!(cases > 50, variant.table().is_some(), "{name} {variant}: {cases} evaluations");
+            let values = value(variant);
+            assert!(values.iter().all(|value| (0.0..=1.0).contains(value)), "{name} {variant}");
+            let [cases, states] = [CASE, STATE].map(|layer| seen[index].counts(layer).unwrap_or_default());
+            assert_eq!([cases.len(), states.len()], [if variant.table().is_some() { values.len() } else { 0 }; 2]);
+            let evaluations = cases.iter().filter(|case| **case != NONE).count();
+            assert_eq!(evaluations > 50, variant.table().is_some(), "{name} {variant}: {evaluations} evaluations");
             // Where a table is asked, there is a state; where it is not asked, the plain test decides.
-            for pixel in 0..visibility.value.len() {
-                let asked = visibility.case[pixel] != Visibility::NONE;
-                assert_eq!(asked, visibility.state[pixel] != Visibility::NONE, "{name} {variant} {pixel}");
-                if !asked && matches!(variant, Variant::Smsr | Variant::Rsmss) {
-                    assert_eq!(visibility.value[pixel], of(Variant::Hard).value[pixel], "{name} {variant} {pixel}");
+            for (pixel, (case, state)) in cases.iter().zip(states).enumerate() {
+                assert_eq!(*case != NONE, *state != NONE, "{name} {variant} {pixel}");
+                if *case == NONE && matches!(variant, Variant::Smsr | Variant::Rsmss) {
+                    assert_eq!(values[pixel], value(Variant::Hard)[pixel], "{name} {variant} {pixel}");
                 }
             }
             ratios[index].push((error(variant) / error(Variant::Hard), name));
         }
         // SMSR adds shadow and takes none away.
-        let pairs = of(Variant::Smsr).value.iter().zip(&of(Variant::Hard).value);
+        let pairs = value(Variant::Smsr).iter().zip(value(Variant::Hard));
         assert!(pairs.clone().all(|(smsr, hard)| smsr <= hard), "{name}");
         assert!(pairs.clone().any(|(smsr, hard)| smsr < hard), "{name}");
     }
@@ -80,12 +85,9 @@ fn every_variant_on_every_scene() {
 fn twice_the_samples_change_nothing_that_could_be_seen() {
     for name in ["fence", "teapot"] {
         let scene = Scene::open(name).unwrap_or_else(|e| panic!("{e}"));
-        let stage = Stage::new(&scene).unwrap_or_else(|e| panic!("{e}"));
-        let surfaces = stage.surfaces(96, 54);
-        let samples = Samples::default();
-        let twice = Samples { first: 2 * samples.first, most: 2 * samples.most };
-        let [once, twice] = [samples, twice]
-            .map(|samples| reference::visibility(&scene, &stage.light, &stage.rays, &surfaces, samples, &|_| ()));
+        let frame = Frame::new(&scene, (96, 54), &Executor::Cpu);
+        let [first, most] = [&FIRST_SAMPLES, &MOST_SAMPLES].map(|setting| Settings::default().whole(setting));
+        let [once, twice] = [1, 2].map(|times| truth(&frame, times * first, times * most));
         let differences: Vec<f32> = once.iter().zip(&twice).map(|(a, b)| (a - b).abs()).collect();
         let largest = differences.iter().copied().fold(0.0, f32::max);
         let seen = differences.iter().filter(|difference| **difference > 1.0 / 255.0).count();
