@@ -40,12 +40,27 @@ fn forms() {
         let said = place.run(&format!("atlas smsr.ron -o {name} --scale 0.25"));
         assert_eq!(said.all(), "exit code: 0\n");
     }
-    assert!(std::fs::read(place.path("a.png")).unwrap().starts_with(b"\x89PNG"));
-    let page = place.read("a.html");
-    assert!(page.contains("id=\"case-12\"") && !page.contains("<script"));
     let svg = place.read("a.svg");
     place.run("atlas smsr.ron -o b.svg");
     assert_eq!(svg, place.read("b.svg"), "the same bytes each time");
+    // The raster is the drawing at a quarter of its size: light paper with something on all parts of it.
+    let side = |name: &str| {
+        svg.split_once(&format!("{name}=\"")).unwrap().1.split('"').next().unwrap().parse::<f64>().unwrap()
+    };
+    let picture = image::open(place.path("a.png")).unwrap().into_rgb8();
+    let (width, height) = picture.dimensions();
+    assert_eq!((width, height), ((side("width") / 4.0).ceil() as u32, (side("height") / 4.0).ceil() as u32));
+    let paper = *picture.get_pixel(0, 0);
+    for part in 0..12 {
+        let (left, top) = (part % 4 * width / 4, part / 4 * height / 3);
+        let drawn = (left..left + width / 4).flat_map(|x| (top..top + height / 3).map(move |y| (x, y)));
+        assert!(drawn.filter(|(x, y)| *picture.get_pixel(*x, *y) != paper).count() > 100, "part {part}");
+    }
+    let page = place.read("a.html");
+    for case in 1..=12 {
+        assert_eq!(page.matches(&format!("id=\"case-{case}\"")).count(), 1, "case {case}");
+    }
+    assert!(!page.contains("<script"));
 }
 
 /// A table without hints, with conditions, data, vectors and levels, still has panels.
@@ -66,6 +81,9 @@ fn tables_without_hints() {
     for name in ["first", "vector", "levels"] {
         let said = place.run(&format!("atlas {name}.ron -o {name}.svg"));
         assert_eq!(said.all(), "exit code: 0\n");
+    }
+    for (name, panel) in [("first", ">5</text>"), ("vector", ">7</text>"), ("levels", ">1</text>")] {
+        assert_eq!(place.read(&format!("{name}.svg")).matches(panel).count(), 1, "{name}");
     }
     assert!(place.read("vector.svg").contains(">s</text>"), "the guard as an expression");
 }

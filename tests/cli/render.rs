@@ -24,25 +24,99 @@ fn scenes_are_listed_one_a_line() {
     assert_eq!(said.all(), "exit code: 0\nstdout:\nfence\nfoliage\nlattice\noutdoor\nslope\nstudio\nteapot\ntext\n");
 }
 
+/// A blue block over a grey ground, seen from above; light comes from the left, at 45 degrees.
+const LID: &str = r#"Scene(
+    title: "A lid",
+    camera: (eye: (0, 8, 4), target: (0.8, 0, 0)),
+    light: Directional(direction: (1, -1, 0)),
+    ambient: 0.2,
+    objects: [
+        (shape: Ground(size: (40, 40)), colour: (0.5, 0.5, 0.5)),
+        (shape: Block(size: (1, 0.2, 1)), at: (0, 2, 0), colour: (0, 0, 1)),
+    ],
+)
+"#;
+
+/// Renders [`LID`] with some arguments, and gives the picture.
+fn lid(place: &Place, arguments: &str, file: &str) -> image::DynamicImage {
+    place.file("lid.ron", LID);
+    let said = place.run(&format!("render --scene lid.ron {SMALL} {arguments} -o {file}"));
+    assert_eq!(said.all(), "exit code: 0\n", "{arguments}");
+    image::open(place.path(file)).unwrap()
+}
+
+/// The ground has two brightnesses, which a pencil finds, too: half the colour, times the ambient share, times also
+/// the cosine of 45 degrees where it is lit.
 #[test]
-fn pictures_of_all_kinds_are_written() {
+fn plain_pictures_have_the_expected_light() {
     let place = Place::new();
-    let png = b"\x89PNG";
-    for arguments in [
-        "--technique hard -o a.png",
-        "--cases -o b.png",
-        "--technique smsr --cases -o c.png",
-        "--compare hard,rsmss,reference -o d.png",
-    ] {
-        let said = place.run(&format!("render --scene text {SMALL} {arguments}"));
-        assert_eq!(said.all(), "exit code: 0\n", "{arguments}");
+    let light = lid(&place, "--technique hard", "hard.exr").into_rgb32f();
+    assert_eq!(light.dimensions(), (48, 27));
+    let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
+    let (mut lit, mut dark, mut blue) = (0, 0, 0);
+    for (x, y, pixel) in light.enumerate_pixels() {
+        match pixel.0 {
+            [0.0, 0.0, _] => blue += 1,
+            [r, g, b] if r == g && g == b && near(r, 0.5 * 0.2) => dark += 1,
+            [r, g, b] if r == g && g == b && near(r, 0.5 * (0.2 + 0.8 * 0.5_f32.sqrt())) => lit += 1,
+            other => panic!("{other:?} at {x}, {y}"),
+        }
     }
-    for name in ["a.png", "b.png", "c.png", "d.png"] {
-        assert!(std::fs::read(place.path(name)).unwrap().starts_with(png), "{name}");
+    // The block is nearer to the eye than its shadow, and so a little larger.
+    assert!(dark > 10 && dark < blue && blue < 2 * dark && lit > 10 * blue, "{lit} lit, {dark} dark, {blue} blue");
+
+    // The same in the values of a picture: 0.1 is 89, and 0.382843 is 166.
+    let encoded = lid(&place, "--technique hard", "hard.png").into_rgb8();
+    for (pixel, light) in encoded.pixels().zip(light.pixels()).filter(|(_, light)| light.0[0] > 0.0) {
+        assert_eq!(pixel.0, if near(light.0[0], 0.1) { [89; 3] } else { [166; 3] });
     }
-    let said = place.run(&format!("render --scene text {SMALL} -o e.exr"));
-    assert_eq!(said.code, Some(0));
-    assert!(std::fs::read(place.path("e.exr")).unwrap().starts_with(&[0x76, 0x2f, 0x31, 0x01]));
+}
+
+/// A pixel in which a table was asked has the colour of its case, any other one is grey; the legend stands below.
+#[test]
+fn pictures_of_cases_colour_what_was_asked() {
+    let place = Place::new();
+    for technique in ["smsr", "rsmss"] {
+        place.file("lid.ron", LID);
+        let said = place.run(&format!(
+            "render --scene lid.ron {SMALL} --technique {technique} --cases --stats --message-format json -o cases.png"
+        ));
+        let stats: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+        let picture = image::open(place.path("cases.png")).unwrap().into_rgb8();
+        assert!(picture.width() == 48 && picture.height() > 27, "{:?}", picture.dimensions());
+        let mut found = std::collections::BTreeMap::new();
+        for (.., pixel) in picture.enumerate_pixels().filter(|(_, y, _)| *y < 27) {
+            if pixel.0 != [pixel.0[0]; 3] {
+                *found.entry(pixel.0).or_insert(0) += 1;
+            }
+        }
+        let case = |case: &serde_json::Value| {
+            let id = case["case"].as_u64().unwrap() as u32;
+            (umbrage::picture::sheet::case_colour(Some(id)).0, case["pixels"].as_u64().unwrap())
+        };
+        let expected: std::collections::BTreeMap<_, _> = stats["cases"].as_array().unwrap().iter().map(case).collect();
+        assert_eq!(found, expected, "{technique}");
+    }
+}
+
+/// A contact sheet has the picture of each technique in a column of its own, but for the marks on it.
+#[test]
+fn contact_sheets_show_the_pictures_that_are_compared() {
+    let place = Place::new();
+    let techniques = ["hard", "rsmss", "reference"];
+    let sheet = lid(&place, "--compare hard,rsmss,reference", "sheet.png").into_rgb8();
+    for (column, technique) in (0..).zip(techniques) {
+        let alone = lid(&place, &format!("--technique {technique}"), "alone.png").into_rgb8();
+        let shown = |x: u32, y: u32| sheet.get_pixel(8 + column * (48 + 8) + x, 30 + 24 + y);
+        let marks: Vec<_> = alone
+            .enumerate_pixels()
+            .filter(|(x, y, pixel)| shown(*x, *y) != *pixel)
+            .map(|(x, y, _)| shown(x, y))
+            .collect();
+        let is_mark = |pixel: &&image::Rgb<u8>| matches!(pixel.0, [230, 40, 40] | [20, 110, 230]);
+        // At most two squares of 27 pixels a side are marked.
+        assert!(marks.len() <= 2 * 4 * 26 && marks.iter().all(is_mark), "{technique}: {marks:?}");
+    }
 }
 
 /// A spot whose cone covers a small part of the ground, with a wall in it.
@@ -118,8 +192,30 @@ fn quality_measures_and_judges() {
     );
     assert_eq!(said.code, Some(0), "{}", said.err);
     assert!(said.out.contains("weighted by the light that would be there"), "{}", said.out);
-    assert!(place.read("q.json").contains("\"rmse_near\""));
-    assert!(place.read("q.svg").starts_with("<svg"));
+    let object: serde_json::Value = serde_json::from_str(&place.read("q.json")).unwrap();
+    let rows = object["rows"].as_array().unwrap();
+    let of =
+        |row: &serde_json::Value| (row["shadow_map"].as_u64().unwrap(), row["technique"].as_str().unwrap().to_owned());
+    let names = [(64, "hard"), (64, "rsmss"), (256, "hard"), (256, "rsmss")].map(|(map, name)| (map, name.to_owned()));
+    assert_eq!(rows.iter().map(of).collect::<Vec<_>>(), names);
+    for measure in ["rmse", "rmse_near", "dssim", "dssim_near"] {
+        let [hard, rsmss, fine_hard, fine_rsmss] = [0, 1, 2, 3].map(|row| rows[row][measure].as_f64().unwrap());
+        // The line is better than the staircase, and small texels are better than large ones.
+        assert!(0.0 < fine_rsmss && fine_rsmss < fine_hard.min(rsmss) && fine_hard.max(rsmss) < hard, "{measure}");
+        assert!(hard < 0.2, "{measure}: {hard}");
+    }
+    for row in rows {
+        // Pixels far from a silhouette have small errors, so that those near it have more than all together.
+        assert!(row["rmse_near"].as_f64() > row["rmse"].as_f64(), "{row}");
+        assert!(said.out.contains(&format!(
+            "{:.4} / {:.4}",
+            row["rmse"].as_f64().unwrap(),
+            row["rmse_near"].as_f64().unwrap()
+        )));
+    }
+    let plot = place.read("q.svg");
+    assert_eq!(plot.matches("stroke-width=\"2\" points=").count(), 2, "a line for each technique");
+    assert!(["Standing letters", "RMSE near silhouettes", "hard", "rsmss"].iter().all(|text| plot.contains(text)));
 }
 
 /// Every technique in both kinds of passes, with what it is compared with.
@@ -133,10 +229,22 @@ fn passes_are_measured() {
     let object: serde_json::Value = serde_json::from_str(&said.out).unwrap();
     assert_eq!((&object["scene"], &object["width"], &object["shadow_map"]), (&"text".into(), &48.into(), &64.into()));
     let passes = object["passes"].as_array().unwrap();
+    let most_reads =
+        |technique| passes.iter().find(|pass| pass["technique"] == technique).unwrap()["most_reads"].clone();
+    assert_eq!((most_reads("hard"), most_reads("pcf")), (1.into(), 9.into()), "a texel; three by three");
     for technique in ["hard", "pcf", "smsr", "rsmss", "rsmss_one_pass", "casefree", "rsmss_2015"] {
-        let mut of = passes.iter().filter(|pass| pass["technique"] == technique);
-        assert!(of.all(|pass| pass["ms"].as_f64().unwrap() > 0.0 && pass["vs_hard"].as_f64().unwrap() > 0.0));
-        assert_eq!(passes.iter().filter(|pass| pass["technique"] == technique).count(), 2, "{technique}");
+        let of: Vec<_> = passes.iter().filter(|pass| pass["technique"] == technique).collect();
+        let kinds: Vec<_> = of.iter().map(|pass| pass["pass"].as_str().unwrap()).collect();
+        assert_eq!(kinds, ["compute", "fragment"], "{technique}");
+        for pass in of {
+            let hard = passes.iter().find(|hard| hard["technique"] == "hard" && hard["pass"] == pass["pass"]).unwrap();
+            let ratio = pass["ms"].as_f64().unwrap() / hard["ms"].as_f64().unwrap();
+            assert!((pass["vs_hard"].as_f64().unwrap() / ratio - 1.0).abs() < 1e-9, "{pass} to {hard}");
+            // What is read and walked is counted, and the same in both kinds of passes.
+            let counts = ["reads_per_pixel", "most_reads", "steps_per_pixel", "steps_per_group", "walking"];
+            let other = passes.iter().find(|other| other["technique"] == technique && other["pass"] != pass["pass"]);
+            assert!(counts.iter().all(|count| other.unwrap()[count] == pass[count]), "{pass} and {other:?}");
+        }
     }
     for (bad, expected) in [
         ("--rounds 0", "invalid value '0' for '--rounds <COUNT>'"),
