@@ -124,11 +124,10 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         protocol: Protocol { rounds: arguments.rounds, ..defaults.protocol },
         wall_clock: arguments.wall_clock,
     };
-    if arguments.whole {
-        // Said before anything takes time.
-        whole::check(arguments, &program)?;
-    }
+    // What is wrong with them is said before anything takes time.
+    let scenes = if arguments.whole { whole::scenes(arguments, &program)? } else { Vec::new() };
     let gpu = Arc::new(Gpu::open(&arguments.adapter)?);
+    let executor = Executor::Gpu(Arc::clone(&gpu));
     let path = Tuned::path(&arguments.output, gpu.name());
     // A file that cannot be read or written is found before anything takes time.
     Tuned::read(&path)?;
@@ -140,7 +139,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let result = result.and_then(|mut tuning| {
         if arguments.whole {
             bar.set_message("measuring whole shaders");
-            tuning.whole = whole::measure(arguments, &program, &Executor::Gpu(Arc::clone(&gpu)), &tuning)?;
+            tuning.whole = whole::measure(arguments, &program, &scenes, &executor, &tuning)?;
         }
         Ok(tuning)
     });

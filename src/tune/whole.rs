@@ -9,7 +9,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::gpu::timing::{Protocol, Times, interleaved};
 use crate::program::Program;
 use crate::technique::prepared::{Detail, Pass, Watch};
-use crate::technique::{self, Ability, Frame, Technique};
+use crate::technique::{self, Ability, Frame, Prepared, Technique};
 
 /// What was measured of a frame, in one kind of pass.
 #[derive(Debug, Clone)]
@@ -58,28 +58,45 @@ pub fn technique(program: &Program) -> Result<&'static dyn Technique, Failure> {
     })
 }
 
-/// Measures the passes of a frame with every plan in turn. `name` says which frame it is.
+/// Measures the passes of frames with every plan in turn. What is made for a plan is made once for all frames, each of
+/// which comes with its name.
 ///
 /// # Errors
 /// When the device refuses a shader, or fails.
 pub fn whole<'s>(
     technique: &dyn Technique,
-    name: &str,
-    frame: &Frame<'s>,
+    frames: &[(String, Frame<'s>)],
     plans: &'s [Measured<'s>],
     watch: &Watch<'_>,
     protocol: Protocol,
 ) -> Result<Vec<Whole>, Failure> {
-    let mut prepared = Vec::new();
-    for plan in plans {
-        let mut frame = frame.clone();
-        frame.plans = vec![&plan.proved];
-        prepared.push(frame.prepare(technique)?);
+    let mut prepared: Vec<Box<dyn Prepared<'s> + 's>> = Vec::new();
+    let mut measured = Vec::new();
+    for (name, frame) in frames {
+        for (index, plan) in plans.iter().enumerate() {
+            let mut frame = frame.clone();
+            frame.plans = vec![&plan.proved];
+            match prepared.get_mut(index) {
+                Some(prepared) => prepared.set_frame(&frame)?,
+                None => prepared.push(frame.prepare(technique)?),
+            }
+        }
+        measured.extend(in_frame(name, &mut prepared, watch, protocol)?);
     }
-    let mut passes: Vec<Vec<Pass<'_>>> = Vec::new();
-    for prepared in &mut prepared {
-        passes.push(prepared.passes(Detail::Plain)?);
-    }
+    Ok(measured)
+}
+
+/// Measures the passes of a frame that was prepared with every plan.
+fn in_frame<'s>(
+    name: &str,
+    prepared: &mut [Box<dyn Prepared<'s> + 's>],
+    watch: &Watch<'_>,
+    protocol: Protocol,
+) -> Result<Vec<Whole>, Failure> {
+    let plans = prepared.len();
+    let passes: Result<Vec<Vec<Pass<'_>>>, Failure> =
+        prepared.iter_mut().map(|prepared| prepared.passes(Detail::Plain)).collect();
+    let passes = passes?;
     // Every plan has the same passes: first all plans in one of them, then all in the next.
     let kinds = passes.first().map_or(0, Vec::len);
     let all: Vec<&Pass<'_>> =
@@ -88,7 +105,7 @@ pub fn whole<'s>(
     let whole = |kind: &Pass<'_>| Whole {
         frame: name.to_owned(),
         pass: kind.name,
-        times: times.by_ref().take(plans.len()).collect(),
+        times: times.by_ref().take(plans).collect(),
     };
     Ok(passes.first().into_iter().flatten().map(whole).collect())
 }

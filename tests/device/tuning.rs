@@ -270,21 +270,27 @@ fn tuning_ranks_plans_and_keeps_the_choice() {
 fn plans_are_measured_in_whole_shaders() {
     let place = place();
     let said = place.run(&format!(
-        "{TUNE} --whole --scene text --size 64x36 --shadow-map 64 --report tuning.html --message-format json"
+        "{TUNE} --whole --scene text,slope --size 64x36 --shadow-map 64 --report tuning.html --message-format json"
     ));
     assert_eq!(said.code, Some(0), "{}", said.err);
     let object: Json = serde_json::from_str(&said.out).unwrap();
     let whole = object["whole"].as_array().unwrap();
     let passes: Vec<_> =
         whole.iter().map(|line| (line["pass"].as_str().unwrap(), line["name"].as_str().unwrap())).collect();
-    assert_eq!(passes, [("compute", "ladder"), ("compute", "switch"), ("fragment", "ladder"), ("fragment", "switch")]);
-    for lines in whole.chunks(2) {
+    let expected = [("compute", "ladder"), ("compute", "switch"), ("fragment", "ladder"), ("fragment", "switch")];
+    assert_eq!(passes, [expected, expected].concat());
+    for (index, lines) in whole.chunks(2).enumerate() {
         for line in lines {
-            assert_eq!(line["frame"], "text, 64x36, map 64, search limit 128");
+            let scene = ["text", "slope"][index / 2];
+            assert_eq!(line["frame"], format!("{scene}, 64x36, map 64, search limit 128"));
             let ratio = line["ms"].as_f64().unwrap() / lines[0]["ms"].as_f64().unwrap();
             assert!((line["vs_ladder"].as_f64().unwrap() / ratio - 1.0).abs() < 1e-9, "{line}");
         }
     }
+    // Said before anything is measured.
+    let said = place.run(&format!("{TUNE} --whole --scene text,studio"));
+    assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+    assert!(said.err.contains("and the scene `studio` has none"), "{}", said.err);
     let page = place.read("tuning.html");
     for line in whole {
         assert!(page.contains(&format!(">{:.3}</td>", line["vs_ladder"].as_f64().unwrap())), "{line}");

@@ -15,16 +15,25 @@ use crate::technique::{Executor, Frame, Settings, revectorise::SHADOW_MAP, setti
 use crate::tune::Tuning;
 use crate::tune::whole::{Whole, technique, whole};
 
-/// Refuses what cannot be measured.
-pub(super) fn check(arguments: &Arguments, program: &Program) -> std::result::Result<(), Failure> {
-    technique(program)?;
-    arguments.scene.iter().try_for_each(|scene| Scene::open(scene).map(drop))
+/// The scenes that are measured.
+///
+/// # Errors
+/// When a scene is wrong, or no technique evaluates the table.
+pub(super) fn scenes(arguments: &Arguments, program: &Program) -> std::result::Result<Vec<Scene>, Failure> {
+    let technique = technique(program)?;
+    let open = |name: &String| {
+        let scene = Scene::open(name)?;
+        technique.lights().of_scene(&scene, technique.name())?;
+        Ok(scene)
+    };
+    arguments.scene.iter().map(open).collect()
 }
 
 /// Measures the technique that the table is for, on every scene.
 pub(super) fn measure(
     arguments: &Arguments,
     program: &Program,
+    scenes: &[Scene],
     executor: &Executor,
     tuning: &Tuning<'_>,
 ) -> std::result::Result<Vec<Whole>, Failure> {
@@ -33,14 +42,12 @@ pub(super) fn measure(
     let size = arguments.size.unwrap_or(if gpu.is_software() { (480, 270) } else { (1920, 1080) });
     let settings = Settings::default().with(&SHADOW_MAP, Value::Whole(arguments.shadow_map));
     let watch = Watch::Device(if arguments.wall_clock { Stopwatch::wall(gpu) } else { Stopwatch::new(gpu) });
-    let mut measured = Vec::new();
-    for name in &arguments.scene {
-        let scene = Scene::open(name)?;
-        let frame = Frame::new(&scene, size, executor).with(settings.clone());
-        let name = format!("{}, {}", scene.name, frame.describe(&[technique]));
-        measured.extend(whole(technique, &name, &frame, &tuning.plans, &watch, tuning.options.protocol)?);
-    }
-    Ok(measured)
+    let frame = |scene| {
+        let frame = Frame::new(scene, size, executor).with(settings.clone());
+        (format!("{}, {}", scene.name, frame.describe(&[technique])), frame)
+    };
+    let frames: Vec<_> = scenes.iter().map(frame).collect();
+    whole(technique, &frames, &tuning.plans, &watch, tuning.options.protocol)
 }
 
 pub(super) fn human(out: &mut impl Write, tuning: &Tuning<'_>) -> Result<()> {
