@@ -1,17 +1,17 @@
 //! How findings put things: inputs as `explain` takes them, sets of inputs as
 //! conditions, formulas, lists.
 
-use num_traits::{Signed, Zero};
-
 use super::sets::Set;
 use super::sets::space::{Space, Witness};
-use crate::program::normal::{Affine, Rational, Term};
+use crate::program::normal::{Affine, Term};
 use crate::program::print::Printer;
+use crate::program::rational::Rational;
 use crate::program::{Domain, ExprId, InputSet, LevelSet, Node, Program, TernaryOp, Value};
 
 /// Inputs in the form that `explain --at` takes. Numbers and fetched inputs are
-/// left out unless they are among the `relevant` ones or have to be given.
-pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> String {
+/// left out unless they are among the `relevant` ones or have to be given. `None` if nothing
+/// is known of numbers that matter.
+pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> Option<String> {
     let mut parts = Vec::new();
     for (id, input) in program.input_ids() {
         let value = match &input.domain {
@@ -22,6 +22,9 @@ pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> St
             },
             Domain::Continuous { .. } => {
                 let needed = relevant.contains(id) || (input.default.is_none() && input.fetched.is_none());
+                if needed && !witness.certain {
+                    return None;
+                }
                 witness.numbers[id.index()].filter(|_| needed).map(Value::Number)
             }
         };
@@ -32,10 +35,7 @@ pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> St
             _ => {}
         }
     }
-    match parts.is_empty() {
-        true => "the defaults of all inputs".to_owned(),
-        false => parts.join(","),
-    }
+    Some(if parts.is_empty() { "the defaults of all inputs".to_owned() } else { parts.join(",") })
 }
 
 /// The inputs that a row mentions.
@@ -81,8 +81,8 @@ fn comparison(program: &Program, form: &Affine, signs: LevelSet) -> String {
     right.terms.retain(|_, factor| factor.is_negative());
     right.terms.values_mut().for_each(|factor| *factor = -*factor);
     match form.constant.is_positive() {
-        true => right.constant = Rational::zero(),
-        false => (left.constant, right.constant) = (Rational::zero(), -form.constant),
+        true => right.constant = Rational::ZERO,
+        false => (left.constant, right.constant) = (Rational::ZERO, -form.constant),
     }
     format!("{} {symbol} {}", affine(program, &left), affine(program, &right))
 }
@@ -141,7 +141,7 @@ fn affine(program: &Program, form: &Affine) -> String {
     for negative in [false, true] {
         for (term, factor) in form.terms.iter().filter(|(_, factor)| factor.is_negative() == negative) {
             let factor = factor.abs();
-            let text = match factor == Rational::from_integer(1) {
+            let text = match factor == Rational::ONE {
                 true => name(term),
                 false => format!("{} * {}", number(factor), name(term)),
             };
@@ -165,7 +165,7 @@ fn affine(program: &Program, form: &Affine) -> String {
 }
 
 fn number(value: Rational) -> String {
-    (*value.numer() as f64 / *value.denom() as f64).to_string()
+    value.to_f64().to_string()
 }
 
 /// `case 4`, `cases 4 and 6`, `cases 4, 5 and 3 more`; `the default` for none.

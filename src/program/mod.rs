@@ -26,6 +26,7 @@ pub mod operators;
 mod ops;
 mod pool;
 pub mod print;
+pub(crate) mod rational;
 mod reachable;
 pub(crate) mod region;
 pub(crate) mod symbolic;

@@ -8,13 +8,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use num_rational::Ratio;
-use num_traits::{CheckedAdd, CheckedMul, Signed, Zero};
-
 use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
+use super::rational::Rational;
 use super::{BinaryOp, ExprId, InputId, Node, Pool, TernaryOp, UnaryOp};
-
-pub(crate) type Rational = Ratio<i128>;
 
 /// Most affine forms in one normal form; beyond it the form is given up.
 const MAX_FORMS: usize = 256;
@@ -86,6 +82,32 @@ impl Normaliser {
         Some(&self.forms[id.0 as usize])
     }
 
+    /// The value of an affine form where inputs have these numbers, and the sum of the magnitudes of its terms.
+    pub(crate) fn value(&self, form: &Affine, numbers: &[f64]) -> (f64, f64) {
+        let start = form.constant.to_f64();
+        form.terms.iter().fold((start, start.abs()), |(sum, size), (term, factor)| {
+            let value = factor.to_f64() * self.value_of_term(term, numbers);
+            (sum + value, size + value.abs())
+        })
+    }
+
+    fn value_of_term(&self, term: &Term, numbers: &[f64]) -> f64 {
+        let at = |id: &NormalId| {
+            let clauses = self.lattice_of(*id).iter();
+            let largest = |clause: &Vec<Affine>| {
+                clause.iter().map(|form| self.value(form, numbers).0).fold(f64::NEG_INFINITY, f64::max)
+            };
+            clauses.map(largest).fold(f64::INFINITY, f64::min)
+        };
+        match term {
+            Term::Input(input) => numbers[input.index()],
+            Term::Constant(bits) => f64::from_bits(*bits),
+            Term::Unary(op, a) => op.apply(at(a)),
+            Term::Binary(op, a, b) => op.apply(at(a), at(b)),
+            Term::Ternary(op, [a, b, c]) => op.apply(at(a), at(b), at(c)),
+        }
+    }
+
     fn intern(&mut self, form: Lattice) -> NormalId {
         if let Some(id) = self.index.get(&form) {
             return *id;
@@ -109,8 +131,8 @@ impl Normaliser {
             Node::Unary(op, a) => {
                 let form = self.get(pool, a)?;
                 match op.row().algebra {
-                    UnaryAlgebra::Negate => scale(&form, -one()),
-                    UnaryAlgebra::Absolute => maximum(form.clone(), scale(&form, -one())?),
+                    UnaryAlgebra::Negate => scale(&form, -Rational::ONE),
+                    UnaryAlgebra::Absolute => maximum(form.clone(), scale(&form, -Rational::ONE)?),
                     UnaryAlgebra::Saturate => maximum(minimum(form, constant(1.0))?, constant(0.0)),
                     UnaryAlgebra::Opaque => Some(single(Term::Unary(op, self.intern(form)))),
                 }
@@ -119,10 +141,10 @@ impl Normaliser {
                 let (left, right) = (self.get(pool, a)?, self.get(pool, b)?);
                 match op.row().algebra {
                     BinaryAlgebra::Sum => sum(&left, &right),
-                    BinaryAlgebra::Difference => sum(&left, &scale(&right, -one())?),
+                    BinaryAlgebra::Difference => sum(&left, &scale(&right, -Rational::ONE)?),
                     BinaryAlgebra::Product => self.product(left, right),
                     BinaryAlgebra::Quotient => match value(&right) {
-                        Some(divisor) if !divisor.is_zero() => scale(&left, divisor.recip()),
+                        Some(divisor) if !divisor.is_zero() => scale(&left, divisor.reciprocal()?),
                         _ => Some(self.opaque(op, left, right)),
                     },
                     BinaryAlgebra::Minimum => minimum(left, right),
@@ -139,7 +161,7 @@ impl Normaliser {
                         sum(&product, &z)
                     }
                     TernaryAlgebra::Mix => {
-                        let rest = sum(&constant(1.0), &scale(&z, -one())?)?;
+                        let rest = sum(&constant(1.0), &scale(&z, -Rational::ONE)?)?;
                         let (first, second) = (self.product(x, rest)?, self.product(y, z)?);
                         sum(&first, &second)
                     }
@@ -169,42 +191,15 @@ impl Normaliser {
     }
 }
 
-fn one() -> Rational {
-    Rational::from_integer(1)
-}
-
-/// The exact rational of a double, if numerator and denominator are moderate.
-pub(crate) fn rational(value: f64) -> Option<Rational> {
-    if value == 0.0 {
-        return Some(Rational::zero());
-    }
-    let bits = value.to_bits();
-    let exponent = ((bits >> 52) & 0x7ff) as i32;
-    if exponent == 0 || exponent == 0x7ff {
-        return None;
-    }
-    let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52) * if value < 0.0 { -1 } else { 1 };
-    let power = exponent - 1075;
-    match power {
-        0..=40 => Some(Rational::from_integer(mantissa << power)),
-        -100..=-1 => {
-            let shift = (-power).min(mantissa.trailing_zeros() as i32);
-            let rest = -power - shift;
-            (rest <= 60).then(|| Rational::new(mantissa >> shift, 1 << rest))
-        }
-        _ => None,
-    }
-}
-
 fn constant(value: f64) -> Lattice {
-    match rational(value) {
+    match Rational::exact(value) {
         Some(constant) => vec![vec![Affine { terms: BTreeMap::new(), constant }]],
         None => single(Term::Constant(value.to_bits())),
     }
 }
 
 fn single(term: Term) -> Lattice {
-    vec![vec![Affine { terms: BTreeMap::from([(term, one())]), constant: Rational::zero() }]]
+    vec![vec![Affine { terms: BTreeMap::from([(term, Rational::ONE)]), constant: Rational::ZERO }]]
 }
 
 /// The number a form is, if it is one.
@@ -222,19 +217,19 @@ impl Affine {
     pub(crate) fn plus(&self, other: &Affine) -> Option<Affine> {
         let mut terms = self.terms.clone();
         for (term, factor) in &other.terms {
-            let sum = terms.get(term).copied().unwrap_or_else(Rational::zero).checked_add(factor)?;
+            let sum = terms.get(term).copied().unwrap_or(Rational::ZERO).plus(*factor)?;
             if sum.is_zero() {
                 terms.remove(term);
             } else {
                 terms.insert(term.clone(), sum);
             }
         }
-        Some(Affine { terms, constant: self.constant.checked_add(&other.constant)? })
+        Some(Affine { terms, constant: self.constant.plus(other.constant)? })
     }
 
     pub(crate) fn times(&self, factor: Rational) -> Option<Affine> {
-        let terms = self.terms.iter().map(|(term, f)| Some((term.clone(), f.checked_mul(&factor)?)));
-        Some(Affine { terms: terms.collect::<Option<_>>()?, constant: self.constant.checked_mul(&factor)? })
+        let terms = self.terms.iter().map(|(term, f)| Some((term.clone(), f.times(factor)?)));
+        Some(Affine { terms: terms.collect::<Option<_>>()?, constant: self.constant.times(factor)? })
     }
 
     /// Whether this is at least `other` everywhere: same terms, no smaller constant.
@@ -361,13 +356,5 @@ mod tests {
         let wrong = f.pool.binary(BinaryOp::Min, c, x);
         let wrong = f.pool.unary(UnaryOp::Saturate, wrong);
         assert!(!f.equal(left, wrong));
-    }
-
-    #[test]
-    fn rationals_are_exact() {
-        assert_eq!(rational(0.375), Some(Rational::new(3, 8)));
-        assert_eq!(rational(-6.0), Some(Rational::from_integer(-6)));
-        assert_eq!(rational(0.1), Some(Rational::new(0.1_f64.mul_add(36028797018963968.0, 0.0) as i128, 1 << 55)));
-        assert_eq!(rational(1e300), None);
     }
 }

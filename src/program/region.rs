@@ -8,9 +8,8 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::{CheckedAdd, CheckedMul, Signed, Zero};
-
-use super::normal::{Affine, Rational, Term, rational};
+use super::normal::{Affine, Term};
+use super::rational::Rational;
 use super::{Domain, InputId, Program};
 
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
@@ -75,9 +74,9 @@ pub(crate) fn point<'a>(
             let factor = *bound.form.terms.get(&variable)?;
             let mut rest = bound.form.constant;
             for (term, factor) in bound.form.terms.iter().filter(|(term, _)| **term != variable) {
-                rest = rest.checked_add(&point.get(term)?.checked_mul(factor)?)?;
+                rest = rest.plus(point.get(term)?.times(*factor)?)?;
             }
-            let limit = (-rest).checked_mul(&factor.recip())?;
+            let limit = (-rest).times(factor.reciprocal()?)?;
             if factor.is_positive() {
                 lo = Some(lo.map_or(limit, |lo| lo.max(limit)));
             } else {
@@ -99,9 +98,9 @@ pub(crate) fn point<'a>(
 pub(crate) fn between(lo: Rational, hi: Rational, salt: usize) -> Option<Rational> {
     // No sum, difference or complement of two of these is another one.
     let places = [41, 89, 55, 71, 37, 83];
-    let step = (hi - lo).checked_mul(&Rational::new(places[salt % places.len()], 128))?;
-    let inside = lo.checked_add(&step)?;
-    let rounded = (inside.checked_mul(&Rational::from_integer(1024))?.round()).checked_mul(&Rational::new(1, 1024))?;
+    let step = hi.minus(lo)?.times(Rational::fraction(places[salt % places.len()], 128)?)?;
+    let inside = lo.plus(step)?;
+    let rounded = (inside.times(Rational::whole(1024))?.round()).times(Rational::fraction(1, 1024)?)?;
     Some(if lo < rounded && rounded < hi { rounded } else { inside })
 }
 
@@ -114,7 +113,7 @@ fn feasible<'a>(
     signs: impl Iterator<Item = (&'a Affine, Sign)>,
     steps: &mut Vec<Step>,
 ) -> Option<bool> {
-    let minus = Rational::from_integer(-1);
+    let minus = Rational::whole(-1);
     let mut constraints = Vec::new();
     for (form, sign) in signs {
         let strict = sign != Sign::Zero;
@@ -131,13 +130,13 @@ fn feasible<'a>(
     for variable in &variables {
         let Term::Input(input) = variable else { continue };
         if let Domain::Continuous { lo, hi, .. } = program.inputs[input.index()].domain {
-            let one = Rational::from_integer(1);
+            let one = Rational::whole(1);
             let bound = |factor: Rational, constant: Rational| Constraint {
                 form: Affine { terms: [(variable.clone(), factor)].into(), constant },
                 strict: false,
             };
-            constraints.extend(rational(lo).map(|lo| bound(one, -lo)));
-            constraints.extend(rational(hi).map(|hi| bound(minus, hi)));
+            constraints.extend(Rational::exact(lo).map(|lo| bound(one, -lo)));
+            constraints.extend(Rational::exact(hi).map(|hi| bound(minus, hi)));
         }
     }
     for variable in &variables {
@@ -175,7 +174,7 @@ impl Constraint {
     /// What two constraints that bound a variable from either side say without it.
     fn without(&self, variable: &Term, other: &Self) -> Option<Self> {
         let (a, b) = (self.form.terms[variable], other.form.terms[variable].abs());
-        debug_assert!(a.checked_mul(&b).is_none_or(|product| product.is_positive()));
+        debug_assert!(a.times(b).is_none_or(|product| product.is_positive()));
         let form = self.form.times(b)?.plus(&other.form.times(a)?)?;
         Some(Self { form, strict: self.strict || other.strict })
     }
@@ -188,11 +187,11 @@ mod tests {
     use crate::diag::Source;
     use crate::table::Table;
 
-    fn affine(x: i128, y: i128, constant: i128) -> Affine {
+    fn affine(x: i64, y: i64, constant: i64) -> Affine {
         let terms = [(0, x), (1, y)].into_iter().filter(|(_, factor)| *factor != 0);
         Affine {
-            terms: terms.map(|(i, f)| (Term::Input(InputId::new(i)), Rational::from_integer(f))).collect(),
-            constant: Rational::from_integer(constant),
+            terms: terms.map(|(i, f)| (Term::Input(InputId::new(i)), Rational::whole(f))).collect(),
+            constant: Rational::whole(constant),
         }
     }
 

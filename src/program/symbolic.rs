@@ -13,8 +13,6 @@
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
-use num_traits::Signed;
-
 use super::normal::{Affine, Normaliser};
 use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
 use super::print::Printer;
@@ -268,7 +266,7 @@ impl<'p> Machine<'p> {
             let Some(leading) = form.terms.values().next().copied() else {
                 return Some(Difference::Constant(Sign::of(form.constant)));
             };
-            let form = form.times(leading.recip())?;
+            let form = form.times(leading.reciprocal()?)?;
             let number = *self.form_index.entry(form).or_insert_with_key(|form| {
                 self.forms.push(form.clone());
                 self.forms.len() - 1

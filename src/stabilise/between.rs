@@ -13,6 +13,7 @@
 //! divided by `a`, the factor `a` on the right cancels it: no division is left.
 
 use super::poly::{Atom, Mono, Poly, multiply};
+use crate::program::rational::Rational;
 
 /// `sum | variable = mid - half .. mid + half`.
 pub(super) fn between(sum: &Poly, variable: &str, mid: &str, half: &str) -> Result<Poly, String> {
@@ -40,8 +41,8 @@ fn term(inside: &Mono, variable: &str, mid: &Poly, half: &Poly) -> Option<Poly> 
     let others = multiply(inside, &Mono::from([(own, -power)]));
     let mut others = others.iter();
     match (power, others.next(), others.next()) {
-        (1, None, None) => half.times_number(2.into()),
-        (2, None, None) => mid.times(half)?.times_number(4.into()),
+        (1, None, None) => half.times_number(Rational::whole(2)),
+        (2, None, None) => mid.times(half)?.times_number(Rational::whole(4)),
         (0 | 1, Some((Atom::Fun(name, arguments), 1)), None) => {
             let [argument] = arguments.as_slice() else { return None };
             let (slope, phase) = argument.linear_in(variable)?;
@@ -52,13 +53,13 @@ fn term(inside: &Mono, variable: &str, mid: &Poly, half: &Poly) -> Option<Poly> 
                 "cos" => ("sin", -1),
                 _ => return None,
             };
-            let product = reach.times_number((2 * sign).into())?;
+            let product = reach.times_number(Rational::whole(2 * sign))?;
             let difference =
                 product.times(&Poly::fun(other, at_mid.clone()))?.times(&Poly::fun("sinc", reach.clone()))?;
             if power == 0 {
                 return Some(difference);
             }
-            let both = Poly::fun(name, at_mid).times(&Poly::fun("cos", reach))?.times_number(2.into())?;
+            let both = Poly::fun(name, at_mid).times(&Poly::fun("cos", reach))?.times_number(Rational::whole(2))?;
             mid.times(&difference)?.plus(&half.times(&both)?)
         }
         _ => None,

@@ -20,7 +20,7 @@ use super::poly::{Atom, Mono, Poly};
 use super::print::Printer;
 use super::read::Bounds;
 use super::sides::{Density, Names};
-use crate::program::normal::Rational;
+use crate::program::rational::Rational;
 
 /// Numbers of nodes.
 const RULES: [usize; 3] = [4, 8, 16];

@@ -11,11 +11,9 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::{One, Zero};
-
 use super::poly::{Atom, Mono, Poly, multiply};
 use super::series::{ORDER, series};
-use crate::program::normal::Rational;
+use crate::program::rational::Rational;
 
 /// Half a unit in the last place of 1 in `f32`.
 const UNIT: f64 = 1.0 / 16_777_216.0;
@@ -66,7 +64,7 @@ pub(super) struct Argument {
 impl Kernels {
     /// The kernel sin(x)/x.
     pub(super) fn sinc(&mut self) -> Option<String> {
-        let sine = Term { factor: Rational::one(), power: 0, functions: vec![("sin".to_owned(), Rational::one())] };
+        let sine = Term { factor: Rational::ONE, power: 0, functions: vec![("sin".to_owned(), Rational::ONE)] };
         self.kernel(vec![sine], 1, 0).map(|(name, _)| name)
     }
 
@@ -75,16 +73,17 @@ impl Kernels {
     fn kernel(&mut self, terms: Vec<Term>, divisor: usize, skip: usize) -> Option<(String, Rational)> {
         let all = series(&terms)?;
         let lead = *all.get(divisor + skip)?;
-        let scaled = |value: &Rational| value / lead;
-        let terms: Vec<Term> = terms.into_iter().map(|t| Term { factor: scaled(&t.factor), ..t }).collect();
+        let scaled = |value: Rational| value.over(lead);
+        let terms: Vec<Term> =
+            terms.into_iter().map(|t| Some(Term { factor: scaled(t.factor)?, ..t })).collect::<Option<_>>()?;
         let divisor = (divisor + skip) as i32;
         if let Some(known) = self.0.iter().find(|known| known.terms == terms && known.divisor == divisor) {
             return Some((known.name.clone(), lead));
         }
-        let coefficients: Vec<Rational> = all[divisor as usize..].iter().map(scaled).collect();
+        let coefficients: Vec<Rational> = all[divisor as usize..].iter().map(|c| scaled(*c)).collect::<Option<_>>()?;
         let (count, threshold, bounds) = switch(&terms, divisor, &coefficients);
         let is_sinc =
-            divisor == 1 && matches!(terms.as_slice(), [t] if t.functions == [("sin".to_owned(), Rational::one())]);
+            divisor == 1 && matches!(terms.as_slice(), [t] if t.functions == [("sin".to_owned(), Rational::ONE)]);
         let name = match self.0.iter().filter(|known| known.name != "sinc").count() {
             _ if is_sinc => "sinc".to_owned(),
             number => format!("kernel_{}", (b'a' + number as u8 % 26) as char),
@@ -97,7 +96,7 @@ impl Kernels {
 
 /// Number of coefficients and threshold with the smallest bound of the error, or with one that is good enough.
 fn switch(terms: &[Term], divisor: i32, coefficients: &[Rational]) -> (usize, f64, (f64, f64)) {
-    let series: Vec<f64> = coefficients.iter().map(to_f64).collect();
+    let series: Vec<f64> = coefficients.iter().map(|c| c.to_f64()).collect();
     let even = series.iter().skip(1).step_by(2).all(|c| *c == 0.0);
     let step = if even { 2 } else { 1 };
     let mut best: Option<(usize, f64, (f64, f64))> = None;
@@ -122,13 +121,9 @@ fn switch(terms: &[Term], divisor: i32, coefficients: &[Rational]) -> (usize, f6
     best.unwrap_or((series.len(), 1.0, (f64::INFINITY, f64::INFINITY)))
 }
 
-fn to_f64(value: &Rational) -> f64 {
-    *value.numer() as f64 / *value.denom() as f64
-}
-
 fn magnitude(term: &Term, x: f64) -> f64 {
     let functions = term.functions.iter().map(|(name, rate)| {
-        let x = to_f64(rate) * x;
+        let x = rate.to_f64() * x;
         match name.as_str() {
             "exp" => libm::exp(x),
             "cosh" => libm::cosh(x),
@@ -137,7 +132,7 @@ fn magnitude(term: &Term, x: f64) -> f64 {
             _ => libm::sin(x),
         }
     });
-    to_f64(&term.factor) * x.powi(term.power) * functions.product::<f64>()
+    term.factor.to_f64() * x.powi(term.power) * functions.product::<f64>()
 }
 
 fn value(terms: &[Term], divisor: i32, x: f64) -> f64 {
@@ -163,7 +158,7 @@ pub(super) fn extract(sum: &Poly, argument: &Argument, kernels: &mut Kernels) ->
     let mut result = Poly::default();
     for (rest, terms) in groups {
         let replaced = group(terms, argument, kernels)
-            .and_then(|kernel| Poly([(rest.clone(), Rational::one())].into()).times(&kernel));
+            .and_then(|kernel| Poly([(rest.clone(), Rational::ONE)].into()).times(&kernel));
         result = result.plus(&replaced.unwrap_or_else(|| originals[&rest].clone()))?;
     }
     Some(result)
@@ -181,7 +176,7 @@ fn group(mut terms: Vec<Term>, argument: &Argument, kernels: &mut Kernels) -> Op
             if name == "sinc" {
                 *name = "sin".to_owned();
                 term.power -= 1;
-                term.factor /= *rate;
+                term.factor = term.factor.over(*rate)?;
             }
         }
         term.functions.sort();
@@ -221,7 +216,7 @@ impl Pivot {
         }
         let mut atoms = shared.iter();
         match (atoms.next(), atoms.next()) {
-            (Some((atom @ Atom::Var(_), 1)), None) if factor == Rational::one() => Some(Pivot::Variable(atom.clone())),
+            (Some((atom @ Atom::Var(_), 1)), None) if factor == Rational::ONE => Some(Pivot::Variable(atom.clone())),
             _ => None,
         }
     }
@@ -238,7 +233,7 @@ impl Pivot {
                 (Pivot::Sum { over, factor: lead, shared }, atom) if atom == over => {
                     power -= exponent;
                     for _ in 0..*exponent {
-                        factor *= lead;
+                        factor = factor.times(*lead)?;
                         compensate = multiply(&compensate, shared);
                     }
                 }

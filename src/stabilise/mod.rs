@@ -34,10 +34,9 @@ mod trig;
 use std::collections::BTreeSet;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
-use crate::program::normal::Rational;
+use crate::program::rational::Rational;
 use crate::table::{Function, FunctionBody, Table};
 use kernel::{Argument, Kernels};
-use num_traits::One;
 use poly::{Atom, Mono, Poly, multiply};
 use print::Printer;
 use read::{Bounds, Reader};
@@ -223,7 +222,7 @@ fn integral(table: &Table, function: &Function, closed: &Option<Formula>, added:
 impl Bounds {
     /// Mean and half difference, by their names.
     fn text(&self) -> Option<Vec<String>> {
-        let half = Poly::number(Rational::new(1, 2));
+        let half = Poly::number(Rational::HALF);
         let (mean, reach) = (self.lo.plus(&self.hi)?.times(&half)?, self.hi.minus(&self.lo)?.times(&half)?);
         let printer = Printer { group_by: &[self.mid.clone(), self.half.clone()] };
         let text = |(name, value): (&String, Poly)| format!("let {name} = {};", printer.sum(&value));
@@ -292,9 +291,9 @@ fn tame(sum: &Poly) -> Option<Poly> {
         };
         let rest = multiply(mono, &Mono::from([(exp, -1), (other, -1)]));
         let grown = Poly::fun("exp", exponent.plus(&y)?);
-        let fallen = Poly::fun("exp", y.times_number((-2).into())?).times_number(sign.into())?;
-        let product = grown.times(&Poly::whole(1).plus(&fallen)?)?.times_number(*factor / Rational::from_integer(2))?;
-        result = result.plus(&Poly([(rest, Rational::one())].into()).times(&product)?)?;
+        let fallen = Poly::fun("exp", y.times_number(Rational::whole(-2))?).times_number(Rational::whole(sign))?;
+        let product = grown.times(&Poly::whole(1).plus(&fallen)?)?.times_number(factor.times(Rational::HALF)?)?;
+        result = result.plus(&Poly([(rest, Rational::ONE)].into()).times(&product)?)?;
     }
     Some(result)
 }
@@ -326,7 +325,7 @@ fn arguments(sum: &Poly, table: &Table) -> Vec<Argument> {
             (Some(_), Some((Atom::Var(variable), 1))) if shared.len() == 1 => (Poly::var(variable), true),
             (None, _) if reciprocals.contains(&Atom::Over(rest.clone())) => {
                 // What falls like exp(-2 y) is a function of y.
-                let half = Rational::new(-1, 2);
+                let half = -Rational::HALF;
                 let value = if name == "exp" { argument.times_number(half) } else { Some(argument) };
                 let Some(value) = value else { continue };
                 (value, false)

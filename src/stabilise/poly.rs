@@ -8,9 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::{CheckedAdd, CheckedMul, One, Zero};
-
-use crate::program::normal::Rational;
+use crate::program::rational::Rational;
 
 /// What a monomial is a product of.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,12 +36,12 @@ impl Poly {
         if value.is_zero() { Self::default() } else { Self(BTreeMap::from([(Mono::new(), value)])) }
     }
 
-    pub(super) fn whole(value: i128) -> Self {
-        Self::number(Rational::from_integer(value))
+    pub(super) fn whole(value: i64) -> Self {
+        Self::number(Rational::whole(value))
     }
 
     pub(super) fn atom(atom: Atom) -> Self {
-        Self(BTreeMap::from([(Mono::from([(atom, 1)]), Rational::one())]))
+        Self(BTreeMap::from([(Mono::from([(atom, 1)]), Rational::ONE)]))
     }
 
     pub(super) fn var(name: &str) -> Self {
@@ -61,7 +59,7 @@ impl Poly {
     /// The number it is, if it is one.
     pub(super) fn constant(&self) -> Option<Rational> {
         match self.0.iter().next() {
-            None => Some(Rational::zero()),
+            None => Some(Rational::ZERO),
             Some((mono, factor)) if mono.is_empty() && self.0.len() == 1 => Some(*factor),
             Some(_) => None,
         }
@@ -74,7 +72,7 @@ impl Poly {
     }
 
     pub(super) fn add_term(&mut self, mono: Mono, factor: Rational) -> Option<()> {
-        let sum = self.0.get(&mono).copied().unwrap_or_else(Rational::zero).checked_add(&factor)?;
+        let sum = self.0.get(&mono).copied().unwrap_or(Rational::ZERO).plus(factor)?;
         if sum.is_zero() {
             self.0.remove(&mono);
         } else {
@@ -95,12 +93,12 @@ impl Poly {
         if factor.is_zero() {
             return Some(Self::default());
         }
-        let terms = self.0.iter().map(|(mono, f)| Some((mono.clone(), f.checked_mul(&factor)?)));
+        let terms = self.0.iter().map(|(mono, f)| Some((mono.clone(), f.times(factor)?)));
         Some(Self(terms.collect::<Option<_>>()?))
     }
 
     pub(super) fn minus(&self, other: &Self) -> Option<Self> {
-        self.plus(&other.times_number(-Rational::one())?)
+        self.plus(&other.times_number(-Rational::ONE)?)
     }
 
     /// The product; a sum and its reciprocal cancel.
@@ -118,12 +116,12 @@ impl Poly {
                 let over = Atom::Over(rest.clone());
                 if mono.contains_key(&over) {
                     let without = multiply(mono, &Mono::from([(over, -1)]));
-                    product.add_term(multiply(&without, shared), factor.checked_mul(lead)?)?;
+                    product.add_term(multiply(&without, shared), factor.times(*lead)?)?;
                     continue;
                 }
             }
             for (other, by) in &sum.0 {
-                product.add_term(multiply(mono, other), factor.checked_mul(by)?)?;
+                product.add_term(multiply(mono, other), factor.times(*by)?)?;
             }
         }
         Some(product)
@@ -138,7 +136,7 @@ impl Poly {
     pub(super) fn reciprocal(&self) -> Option<Self> {
         let (mono, factor, rest) = self.content()?;
         let mut inverse = Mono::new();
-        let mut result = Self::number(factor.recip());
+        let mut result = Self::number(factor.reciprocal()?);
         for (atom, power) in mono {
             match atom {
                 Atom::Over(sum) => {
@@ -151,10 +149,10 @@ impl Poly {
                 }
             }
         }
-        if rest.constant() != Some(Rational::one()) {
+        if rest.constant() != Some(Rational::ONE) {
             inverse.insert(Atom::Over(rest), 1);
         }
-        result.times(&Self(BTreeMap::from([(inverse, Rational::one())])))
+        result.times(&Self(BTreeMap::from([(inverse, Rational::ONE)])))
     }
 
     /// Factors that all terms share, the rational one among them, and what is left.
@@ -173,7 +171,7 @@ impl Poly {
         let rest = Self(self.0.iter().map(|(mono, factor)| (multiply(mono, &inverse), *factor)).collect());
         // What is left begins with the coefficient 1, so that equal sums look equal.
         let lead = *rest.0.values().next()?;
-        Some((shared, lead, rest.times_number(lead.recip())?))
+        Some((shared, lead, rest.times_number(lead.reciprocal()?)?))
     }
 
     /// The sum with variables of divisors gone from what is divided: `x / (x - y)` is `1 + y / (x - y)`. What
@@ -192,10 +190,10 @@ impl Poly {
             let Some((mono, factor, over, variable, lead, rest)) = found else { return Some(sum) };
             sum.0.remove(&mono);
             let without = multiply(&mono, &Mono::from([(variable, -1)]));
-            let factor = factor / lead;
+            let factor = factor.over(lead)?;
             sum.add_term(multiply(&without, &Mono::from([(over, -1)])), factor)?;
             for (other, by) in &rest.0 {
-                sum.add_term(multiply(&without, other), -factor.checked_mul(by)?)?;
+                sum.add_term(multiply(&without, other), -factor.times(*by)?)?;
             }
         }
         None
@@ -251,7 +249,7 @@ impl Poly {
     /// The number `r` with `self = r other`, if there is one.
     pub(super) fn ratio(&self, other: &Self) -> Option<Rational> {
         let (first, lead) = other.0.iter().next()?;
-        let ratio = self.0.get(first)? / lead;
+        let ratio = self.0.get(first)?.over(*lead)?;
         (other.times_number(ratio)? == *self).then_some(ratio)
     }
 }
@@ -289,15 +287,16 @@ mod tests {
         let (a, b) = (Poly::var("a"), Poly::var("b"));
         let sum = a.plus(&b).expect("small");
         let square = sum.times(&sum).expect("small");
-        let by_parts = a.times(&a).and_then(|x| x.plus(&b.times(&b)?)?.plus(&a.times(&b)?.times_number(2.into())?));
+        let by_parts =
+            a.times(&a).and_then(|x| x.plus(&b.times(&b)?)?.plus(&a.times(&b)?.times_number(Rational::whole(2))?));
         assert_eq!(Some(square), by_parts);
         // 4 (a - b) / (2 b - 2 a) keeps the sign and the factor outside of the reciprocal.
         let difference = a.minus(&b).expect("small");
-        let other = b.minus(&a).and_then(|d| d.times_number(2.into())).expect("small");
+        let other = b.minus(&a).and_then(|d| d.times_number(Rational::whole(2))).expect("small");
         let (one, two) = (difference.reciprocal().expect("not zero"), other.reciprocal().expect("not zero"));
-        assert_eq!(two.times_number((-2).into()), Some(one.clone()));
+        assert_eq!(two.times_number(Rational::whole(-2)), Some(one.clone()));
         assert_eq!(Poly::default().reciprocal(), None);
-        let tripled = Poly::var("k").times_number(3.into()).expect("small");
+        let tripled = Poly::var("k").times_number(Rational::whole(3)).expect("small");
         assert_eq!(tripled.over(&tripled), Some(Poly::whole(1)));
         // (a c - b c) / (a - b)
         let c = Poly::var("c");

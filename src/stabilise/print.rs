@@ -1,11 +1,9 @@
 //! Sums of products in the notation of the table language, as a person would
 //! write them: common factors in front, fractions as divisions.
 
-use num_traits::{One, Signed, Zero};
-
 use super::kernel::{Kernel, Term};
 use super::poly::{Atom, Mono, Poly};
-use crate::program::normal::Rational;
+use crate::program::rational::Rational;
 
 /// Prints sums; terms that share one of these variables are grouped by it.
 pub(super) struct Printer<'a> {
@@ -25,10 +23,11 @@ impl Printer<'_> {
             return self.product(&shared, lead, None, operand);
         }
         // Whole numbers inside, if possible; the sign stays with the terms.
-        let rest = rest.times_number(lead).unwrap_or(rest);
-        let factor = rest.0.values().fold(Rational::zero(), |all, f| common(all, *f));
-        let inner = rest.times_number(factor.recip()).unwrap_or_else(|| rest.clone());
-        if shared.is_empty() && factor == Rational::one() {
+        let Some(rest) = rest.times_number(lead) else { return self.product(&shared, lead, Some(&rest), operand) };
+        let factor = rest.0.values().try_fold(Rational::ZERO, |all, f| common(all, *f));
+        let inner = factor.and_then(|factor| Some((factor, rest.times_number(factor.reciprocal()?)?)));
+        let (factor, inner) = inner.unwrap_or((Rational::ONE, rest));
+        if shared.is_empty() && factor == Rational::ONE {
             let text = self.terms(&inner);
             return if operand { format!("({text})") } else { text };
         }
@@ -72,10 +71,10 @@ impl Printer<'_> {
         }
         over.extend(sum.map(|sum| self.write(sum, true)));
         let size = factor.abs();
-        let denominator = *size.denom();
+        let denominator = size.denominator();
         // Fractions that are short decimals are written so.
         let decimal = matches!(denominator, 1 | 2 | 4 | 8);
-        let number = if decimal { *size.numer() as f64 / denominator as f64 } else { *size.numer() as f64 };
+        let number = if decimal { size.to_f64() } else { size.numerator() as f64 };
         if number != 1.0 || over.is_empty() {
             over.insert(0, format!("{number}"));
         }
@@ -98,21 +97,21 @@ impl Printer<'_> {
 }
 
 /// The largest number of which both are whole multiples.
-fn common(a: Rational, b: Rational) -> Rational {
+fn common(a: Rational, b: Rational) -> Option<Rational> {
     if a.is_zero() {
-        return b.abs();
+        return Some(b.abs());
     }
-    let numerator = gcd(a.numer() * b.denom(), b.numer() * a.denom());
-    Rational::new(numerator, a.denom() * b.denom())
+    let [x, y] = [(a, b), (b, a)].map(|(over, under)| over.numerator().checked_mul(under.denominator()));
+    Rational::fraction(gcd(x?, y?)?, a.denominator().checked_mul(b.denominator())?)
 }
 
 /// The greatest common divisor; zero only of zeros.
-fn gcd(a: i128, b: i128) -> i128 {
-    let (mut a, mut b) = (a.abs(), b.abs());
+fn gcd(a: i128, b: i128) -> Option<i128> {
+    let (mut a, mut b) = (a.unsigned_abs(), b.unsigned_abs());
     while b != 0 {
         (a, b) = (b, a % b);
     }
-    a
+    i128::try_from(a).ok()
 }
 
 fn join(left: &str, right: &str) -> String {
@@ -125,7 +124,7 @@ fn join(left: &str, right: &str) -> String {
 /// A kernel's two lines as a helper of the table: its declaration and what is said about it.
 pub(super) fn helper(kernel: &Kernel, indent: &str) -> String {
     let Kernel { name, terms, divisor, series, threshold, bounds } = kernel;
-    let even = series.iter().skip(1).step_by(2).all(Zero::is_zero);
+    let even = series.iter().skip(1).step_by(2).all(|c| c.is_zero());
     let step = if even { 2 } else { 1 };
     let coefficients: Vec<String> = series.iter().step_by(step).map(fraction).collect();
     let argument = if even { "x * x" } else { "x" };
@@ -143,7 +142,10 @@ pub(super) fn helper(kernel: &Kernel, indent: &str) -> String {
 }
 
 fn fraction(value: &Rational) -> String {
-    if value.denom().is_one() { value.numer().to_string() } else { format!("{} / {}", value.numer(), value.denom()) }
+    match value.integer() {
+        Some(whole) => whole.to_string(),
+        None => format!("{} / {}", value.numerator(), value.denominator()),
+    }
 }
 
 /// The closed form in x.

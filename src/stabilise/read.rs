@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use super::between::between;
 use super::poly::{Atom, Mono, Poly};
-use crate::program::normal::rational;
+use crate::program::rational::Rational;
 use crate::table::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::table::{ConstantValue, Function, FunctionBody, Table};
 
@@ -78,12 +78,15 @@ impl<'t> Reader<'t> {
     fn node(&mut self, expr: &Expr, env: &Env) -> Result<Poly> {
         match &expr.kind {
             ExprKind::Number(value) => {
-                let exact = rational(*value).ok_or_else(|| format!("{value} is no fraction of moderate size"))?;
+                let exact =
+                    Rational::exact(*value).ok_or_else(|| format!("{value} is no fraction of moderate size"))?;
                 // The decimal as written, where the double is only the nearest to it.
-                Ok(Poly::number(decimal(*value).unwrap_or(exact)))
+                Ok(Poly::number(Rational::decimal(*value).unwrap_or(exact)))
             }
             ExprKind::Name(name) => self.name(name, env),
-            ExprKind::Unary(UnaryOp::Negate, a) => self.expr(a, env)?.times_number((-1).into()).ok_or_else(too_large),
+            ExprKind::Unary(UnaryOp::Negate, a) => {
+                self.expr(a, env)?.times_number(Rational::whole(-1)).ok_or_else(too_large)
+            }
             ExprKind::Binary(BinaryOp::Divide, a, b) => {
                 let a = self.expr(a, env)?;
                 self.quotient(a, b, env)
@@ -142,8 +145,8 @@ impl<'t> Reader<'t> {
                 self.quotient(part, b, env)
             }
             ExprKind::Call(name, arguments) if name.value == "pow" && arguments.len() == 2 => {
-                let exponent = self.expr(&arguments[1], env)?.constant().filter(|e| e.is_integer());
-                match exponent.map(|e| e.to_integer()) {
+                let exponent = self.expr(&arguments[1], env)?.constant().and_then(Rational::integer);
+                match exponent {
                     Some(count @ 1..=8) => (0..count).try_fold(over, |part, _| self.quotient(part, &arguments[0], env)),
                     _ => Err("`pow` with an exponent that is no small number".to_owned()),
                 }
@@ -216,11 +219,11 @@ impl<'t> Reader<'t> {
         let arguments = arguments.iter().map(|a| self.expr(a, env)).collect::<Result<Vec<_>>>()?;
         match (name, arguments.as_slice()) {
             ("pow", [base, exponent]) => {
-                let whole = exponent.constant().filter(|e| e.is_integer() && (0..=8).contains(&e.to_integer()));
+                let whole = exponent.constant().and_then(Rational::integer).filter(|e| (0..=8).contains(e));
                 let Some(count) = whole else {
                     return Err("`pow` with an exponent that is no small number".to_owned());
                 };
-                (0..count.to_integer()).try_fold(Poly::whole(1), |p, _| p.times(base)).ok_or_else(too_large)
+                (0..count).try_fold(Poly::whole(1), |p, _| p.times(base)).ok_or_else(too_large)
             }
             _ => Ok(Poly::atom(Atom::Fun(name.to_owned(), arguments))),
         }
@@ -299,13 +302,4 @@ fn is_number(expr: &Expr) -> bool {
         ExprKind::Binary(_, a, b) => is_number(a) && is_number(b),
         _ => false,
     }
-}
-
-/// The decimal that a number is written as, exactly.
-fn decimal(value: f64) -> Option<crate::program::normal::Rational> {
-    let text = value.to_string();
-    let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
-    let digits: i128 = format!("{whole}{fraction}").parse().ok()?;
-    let scale = 10_i128.checked_pow(u32::try_from(fraction.len()).ok()?)?;
-    Some(crate::program::normal::Rational::new(digits, scale))
 }

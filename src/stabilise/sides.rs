@@ -17,12 +17,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use num_traits::{Signed, Zero};
-
 use super::kernel::{self, Argument, Kernels};
 use super::poly::{Atom, Mono, Poly};
 use super::trig::{angle, multiple, replace, substitute, without_squared_cosines};
-use crate::program::normal::Rational;
+use crate::program::rational::Rational;
 
 /// Largest multiple of an angle that is written out.
 const MOST: i128 = 8;
@@ -58,7 +56,7 @@ pub(super) fn density(f: &Poly, names: &Names, kernels: &mut Kernels) -> Option<
     let angles: BTreeSet<&Poly> = rest.0.keys().flat_map(Mono::keys).filter_map(|a| angle(a).map(|(_, x)| x)).collect();
     let (upper, lower): (Vec<&Poly>, Vec<&Poly>) = angles.into_iter().partition(|x| x.mentions(&names.variable));
     let bases = |all: &[&Poly]| -> Vec<Poly> {
-        let of = |x: &&Poly| [(1, 1), (1, 2), (1, 3)].map(|(a, b)| x.times_number(Rational::new(a, b)));
+        let of = |x: &&Poly| [1, 2, 3].map(|b| x.times_number(Rational::fraction(1, b)?));
         all.iter().flat_map(of).flatten().collect()
     };
     for x in bases(&upper) {
@@ -66,7 +64,7 @@ pub(super) fn density(f: &Poly, names: &Names, kernels: &mut Kernels) -> Option<
             let Some(product) = product(&rest, &x, &y, names) else { continue };
             let Some(tamed) = kernels_of(&product, &names.difference, kernels) else { continue };
             let outside = Poly([(shared, lead)].into());
-            let half = Rational::new(1, 2);
+            let half = Rational::HALF;
             return Some(Density {
                 value: outside.times(&tamed)?,
                 sum: x.plus(&y)?.times_number(half)?,
@@ -87,15 +85,15 @@ fn product(rest: &Poly, x: &Poly, y: &Poly, names: &Names) -> Option<Poly> {
     for (side, turned) in [(x, sum.plus(&difference)?), (y, sum.minus(&difference)?)] {
         if let Some((variable, factor)) = lone(side, &names.variable) {
             let others = side.minus(&Poly::var(&variable).times_number(factor)?)?;
-            plain.insert(variable, turned.minus(&others)?.times_number(factor.recip())?);
+            plain.insert(variable, turned.minus(&others)?.times_number(factor.reciprocal()?)?);
         }
     }
     let turned = replace(rest, &|atom| {
         if let Some((name, argument)) = angle(atom) {
             for (side, sign) in [(x, 1), (y, -1)] {
                 if let Some(count) = argument.ratio(side) {
-                    let whole = count.is_integer() && (1..=MOST).contains(&count.to_integer());
-                    let count = usize::try_from(count.to_integer()).ok().filter(|_| whole)?;
+                    let count = count.integer().filter(|count| (1..=MOST).contains(count))?;
+                    let count = usize::try_from(count).ok()?;
                     return multiple(name, count, &sum, &difference, sign);
                 }
             }
@@ -160,12 +158,13 @@ fn speed(f: &Poly, variable: &str) -> Option<BTreeMap<Mono, Rational>> {
                 if !variables || *power < 0 {
                     return None;
                 }
-                let by = factor.abs() * Rational::from_integer((*power).into());
-                *here.entry(factors).or_insert_with(Rational::zero) += by;
+                let by = factor.abs().times(Rational::whole((*power).into()))?;
+                let sum = here.entry(factors).or_insert(Rational::ZERO);
+                *sum = sum.plus(by)?;
             }
         }
         for (factors, by) in here {
-            let known = all.entry(factors).or_insert_with(Rational::zero);
+            let known = all.entry(factors).or_insert(Rational::ZERO);
             *known = by.max(*known);
         }
     }

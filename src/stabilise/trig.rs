@@ -6,10 +6,8 @@
 
 use std::collections::BTreeMap;
 
-use num_traits::{One, Signed};
-
 use super::poly::{Atom, Mono, Poly, multiply};
-use crate::program::normal::Rational;
+use crate::program::rational::Rational;
 
 /// `sin` or `cos` of an argument, with its sign outside.
 pub(super) fn wave(name: &str, argument: &Poly) -> Option<Poly> {
@@ -19,8 +17,8 @@ pub(super) fn wave(name: &str, argument: &Poly) -> Option<Poly> {
     if !lead.is_negative() {
         return Some(Poly::fun(name, argument.clone()));
     }
-    let turned = Poly::fun(name, argument.times_number(-Rational::one())?);
-    if name == "cos" { Some(turned) } else { turned.times_number(-Rational::one()) }
+    let turned = Poly::fun(name, argument.times_number(-Rational::ONE)?);
+    if name == "cos" { Some(turned) } else { turned.times_number(-Rational::ONE) }
 }
 
 /// The argument of a sine or cosine.
@@ -75,13 +73,13 @@ pub(super) fn derivative(sum: &Poly, variable: &str) -> Option<Poly> {
                     let outer = if name == "sin" {
                         wave("cos", argument)?
                     } else {
-                        wave("sin", argument)?.times_number(-Rational::one())?
+                        wave("sin", argument)?.times_number(-Rational::ONE)?
                     };
                     outer.times(&derivative(argument, variable)?)?
                 }
             };
             let rest = multiply(mono, &Mono::from([(atom.clone(), -1)]));
-            let rest = Poly([(rest, *factor * Rational::from_integer((*power).into()))].into());
+            let rest = Poly([(rest, factor.times(Rational::whole((*power).into()))?)].into());
             total = total.plus(&rest.times(&inner)?)?;
         }
     }
@@ -117,7 +115,7 @@ fn pair(sum: &Poly) -> Option<(Mono, Mono, Poly)> {
                 continue;
             }
             let common = multiply(one, &Mono::from([(over.clone(), -1)]));
-            let half = Rational::new(1, 2);
+            let half = Rational::HALF;
             let (mean, apart) = (x.plus(y)?.times_number(half)?, x.minus(y)?.times_number(half)?);
             let (first, last, sign) = match (name, *factor == *second) {
                 ("cos", true) => ("cos", "cos", 2),
@@ -125,7 +123,7 @@ fn pair(sum: &Poly) -> Option<(Mono, Mono, Poly)> {
                 (_, true) => ("sin", "cos", 2),
                 (_, false) => ("cos", "sin", 2),
             };
-            let product = wave(first, &mean)?.times(&wave(last, &apart)?)?.times_number(sign.into())?;
+            let product = wave(first, &mean)?.times(&wave(last, &apart)?)?.times_number(Rational::whole(sign))?;
             let rest = Poly([(common, **factor)].into());
             return Some(((*one).clone(), (*other).clone(), rest.times(&product)?));
         }
@@ -134,9 +132,9 @@ fn pair(sum: &Poly) -> Option<(Mono, Mono, Poly)> {
 }
 
 /// `sin` or `cos` of `count (a + sign b)` in powers of the sines and cosines of a and b.
-pub(super) fn multiple(name: &str, count: usize, a: &Poly, b: &Poly, sign: i128) -> Option<Poly> {
+pub(super) fn multiple(name: &str, count: usize, a: &Poly, b: &Poly, sign: i64) -> Option<Poly> {
     let ((sin_a, cos_a), (sin_b, cos_b)) = (powers(a, count)?, powers(b, count)?);
-    let sin_b = sin_b.times_number(sign.into())?;
+    let sin_b = sin_b.times_number(Rational::whole(sign))?;
     match name {
         "sin" => sin_a.times(&cos_b)?.plus(&cos_a.times(&sin_b)?),
         _ => cos_a.times(&cos_b)?.minus(&sin_a.times(&sin_b)?),
@@ -185,13 +183,13 @@ mod tests {
         let (a, b) = (Poly::var("a"), Poly::var("b"));
         let cos = |x: &Poly| wave("cos", x).expect("small");
         let difference = cos(&a.minus(&b).expect("small")).minus(&cos(&a.plus(&b).expect("small"))).expect("small");
-        let product = wave("sin", &a).and_then(|x| x.times(&wave("sin", &b)?)?.times_number(2.into()));
+        let product = wave("sin", &a).and_then(|x| x.times(&wave("sin", &b)?)?.times_number(Rational::whole(2)));
         assert_eq!(products(&difference), product);
         // cos(3 a) = cos(a) - 4 cos(a) sin(a)^2, and a sum and its parts agree.
         let triple = multiple("cos", 3, &a, &Poly::default(), 1).and_then(|c| substitute(&c, &BTreeMap::new()));
         let sine = wave("sin", &a).expect("small");
         let expected =
-            sine.times(&sine).and_then(|s| Poly::whole(1).minus(&s.times_number(4.into())?)?.times(&cos(&a)));
+            sine.times(&sine).and_then(|s| Poly::whole(1).minus(&s.times_number(Rational::whole(4))?)?.times(&cos(&a)));
         assert_eq!(triple.and_then(|c| without_squared_cosines(&c)), expected);
         assert_eq!(cos(&a.minus(&b).expect("small")), cos(&b.minus(&a).expect("small")));
     }

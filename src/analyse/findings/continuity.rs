@@ -43,7 +43,7 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 let jumps = switches(study, inputs);
                 found.extend(report(study, continuity, jumps, &|space, set| {
                     let witness = space.witness(set)?;
-                    Some((words::at(program, &witness, all_numbers(program)), None))
+                    Some((words::at(program, &witness, all_numbers(program))?, None))
                 }));
             }
         }
@@ -113,8 +113,11 @@ fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
             witness.numbers.truncate(program.inputs.len());
             witness
         };
-        let here = words::at(program, &shorten(here.witness(&wide, &known)), numbers);
-        let there = words::at(program, &shorten(there.witness(&wide, &read)), numbers);
+        if !witness.certain {
+            return None;
+        }
+        let here = words::at(program, &shorten(here.witness(&wide, &known)), numbers)?;
+        let there = words::at(program, &shorten(there.witness(&wide, &read)), numbers)?;
         Some((here, Some(there)))
     };
     report(&mut study, continuity, jumps, &tell)

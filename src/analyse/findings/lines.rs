@@ -51,7 +51,10 @@ fn no_line(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> 
         Diagnostic::warning(codes::NO_LINE, message)
             .at(last, "after this line nothing is left")
             .at(case.guard_span, "but the guard holds")
-            .help(format!("in {}, for instance at {}", words::states(count), words::at(program, &witness, relevant)))
+            .help(match words::at(program, &witness, relevant) {
+                Some(place) => format!("in {}, for instance at {place}", words::states(count)),
+                None => format!("in {}", words::states(count)),
+            })
             .help(format!("where {}", shown.join(", or ")))
             .help("add a line for this, or a last line without a condition"),
     )
@@ -101,8 +104,10 @@ fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic>
     };
     let mut warning = Diagnostic::warning(codes::LINES_CROSS, message)
         .at(case.lines[second].span, "this one applies as well")
-        .at(case.lines[first].span, "this one counts, because it is written first")
-        .help(format!("for instance at {}", words::at(program, &witness, relevant)));
+        .at(case.lines[first].span, "this one counts, because it is written first");
+    if let Some(place) = words::at(program, &witness, relevant) {
+        warning = warning.help(format!("for instance at {place}"));
+    }
     if pairs.len() > 1 {
         let others: Vec<String> =
             pairs[1..].iter().map(|(first, second, _)| format!("{} with {}", first + 1, second + 1)).collect();

@@ -159,7 +159,9 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
             if let Some(mut witness) = study.space.with_numbers(set, &numbers) {
                 witness.numbers = numbers.iter().map(|number| Some(*number)).collect();
                 let relevant = study.space.pool.expr_facts(*value).inputs;
-                warning = warning.help(format!("for instance at {}", words::at(program, &witness, relevant)));
+                if let Some(place) = words::at(program, &witness, relevant) {
+                    warning = warning.help(format!("for instance at {place}"));
+                }
             }
             found.push(warning.help("guard against it with a line of its own, or with max, clamp or select"));
         }

@@ -28,12 +28,12 @@ pub struct Overlap {
     /// Of both, the states in which the earlier case is the first of all whose
     /// guard can hold: where it is order that decides between these two.
     pub states_first: (usize, usize),
-    /// Whether some inputs are sure to give different values. Otherwise this
+    /// Whether some inputs are known to give different values. Otherwise this
     /// depends on comparisons that are not linear, and is not decided here.
     pub certain: bool,
-    /// One such input, in the form that `explain --at` takes; with different
-    /// values if there is any.
-    pub example_state: String,
+    /// One such input, in the form that `explain --at` takes, with different
+    /// values if there is any; `None` if none was found.
+    pub example_state: Option<String>,
 }
 
 /// Every pair of cases whose guards can hold together, in the order of rows.
@@ -156,10 +156,9 @@ fn order_matters(study: &mut Study<'_>, first: usize, later: &[usize], suggest: 
         note = note.at(program.rows[*second].guard_span, "");
     }
     let different = different(study, first, later[0], study.assumed);
-    if let Some(witness) = study.space.witness(different) {
-        let relevant = relevant(study, first, later[0]);
-        let second = program.rows[later[0]].id;
-        note = note.help(format!("cases {} and {second} hold at {}", case.id, words::at(program, &witness, relevant)));
+    let relevant = relevant(study, first, later[0]);
+    if let Some(place) = study.space.witness(different).and_then(|found| words::at(program, &found, relevant)) {
+        note = note.help(format!("cases {} and {} hold at {place}", case.id, program.rows[later[0]].id));
     }
     if !suggest {
         return note;
@@ -239,7 +238,10 @@ fn contradiction(study: &mut Study<'_>, first: usize, second: usize) -> Option<D
         .at(second.guard_span, format!("the guard of case {}", second.id))
         .at(first.guard_span, format!("the guard of case {}", first.id))
         .at(program.hit_policy_span, "but at most one case may decide")
-        .help(format!("in {}, such as at {}", words::states(overlap.states_different), overlap.example_state))
+        .help(match overlap.example_state {
+            Some(place) => format!("in {}, such as at {place}", words::states(overlap.states_different)),
+            None => format!("in {}", words::states(overlap.states_different)),
+        })
         .help("make the guards exclude each other, or say `hit_policy: First`");
     Some(finding)
 }

@@ -204,7 +204,7 @@ fn place_at(study: &Study<'_>, point: &Point, row: Option<usize>) -> String {
         Some(row) => words::mentioned(program, row),
     };
     let wanted: Vec<bool> = program.input_ids().map(|(id, i)| i.fetched.is_none() || read.contains(id)).collect();
-    words::at(program, &point.witness(program, &wanted), read)
+    words::at(program, &point.witness(program, &wanted), read).unwrap_or_default()
 }
 
 fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnostic> {
@@ -313,8 +313,14 @@ fn only_assumed(study: &mut Study<'_>, group: &[Contradiction]) -> Option<Diagno
         false => format!("it takes {}", words::list(&blamed)),
     };
     let witness = study.space.witness(contradiction.set)?;
-    let at = place_at(study, &Point::of(program, &witness), contradiction.rows.0);
-    Some(note.help(taken).help(format!("otherwise they differ, for instance at {at}")))
+    let differ = match witness.certain {
+        true => {
+            let at = place_at(study, &Point::of(program, &witness), contradiction.rows.0);
+            format!("otherwise they differ, for instance at {at}")
+        }
+        false => "otherwise they may differ".to_owned(),
+    };
+    Some(note.help(taken).help(differ))
 }
 
 #[cfg(test)]

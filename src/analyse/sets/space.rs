@@ -18,10 +18,9 @@ mod sample;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use num_traits::Signed;
-
 use super::{Map, Set, Sets};
-use crate::program::normal::{Affine, Lattice, Normaliser, Rational, Term, rational};
+use crate::program::normal::{Affine, Lattice, Normaliser, Term};
+use crate::program::rational::Rational;
 use crate::program::region::Sign;
 use crate::program::{
     BinaryOp, Comparison, Cond, CondId, Domain, ExprId, InputId, LevelSet, LevelTerm, Node, Pool, Program, TernaryOp,
@@ -52,8 +51,8 @@ struct Images {
 enum Question {
     /// The sign of an affine form, by its number.
     Sign(usize),
-    /// A comparison that has no such form.
-    Opaque,
+    /// A comparison that has no such form: whether the first value is less than the second.
+    Opaque(ExprId, ExprId),
 }
 
 /// A set and the value there, for each value that an expression can have.
@@ -136,7 +135,7 @@ impl<'p> Space<'p> {
     pub(in crate::analyse) fn form_of(&self, digit: usize) -> Option<&Affine> {
         match self.questions.get(digit.checked_sub(self.inputs_of_digits.len())?)? {
             Question::Sign(form) => Some(&self.forms[*form]),
-            Question::Opaque => None,
+            Question::Opaque(..) => None,
         }
     }
 
@@ -278,7 +277,7 @@ impl<'p> Space<'p> {
                 for smaller in &a_form {
                     let mut larger = Set::ALL;
                     for other in smaller {
-                        let minus = other.times(Rational::from_integer(-1));
+                        let minus = other.times(Rational::whole(-1));
                         let Some(difference) = minus.and_then(|other| part.plus(&other)) else {
                             return self.opaque(a, b);
                         };
@@ -343,7 +342,7 @@ impl<'p> Space<'p> {
             }
         }
         let Some(leading) = form.terms.values().next().copied() else { return Set::EMPTY };
-        let Some(canonical) = form.times(leading.recip()) else {
+        let Some(canonical) = leading.reciprocal().and_then(|factor| form.times(factor)) else {
             self.too_large = true;
             return Set::EMPTY;
         };
@@ -369,9 +368,9 @@ impl<'p> Space<'p> {
             let Domain::Continuous { lo: from, hi: to, .. } = self.program.inputs[input.index()].domain else {
                 return None;
             };
-            let (a, b) = (rational(from)? * factor, rational(to)? * factor);
-            lo += a.min(b);
-            hi += a.max(b);
+            let (a, b) = (Rational::exact(from)?.times(*factor)?, Rational::exact(to)?.times(*factor)?);
+            lo = lo.plus(a.min(b))?;
+            hi = hi.plus(a.max(b))?;
         }
         Some((lo, hi))
     }
@@ -380,7 +379,7 @@ impl<'p> Space<'p> {
         let digit = match self.opaque_digits.get(&(a, b)) {
             Some(digit) => *digit,
             None => {
-                self.questions.push(Question::Opaque);
+                self.questions.push(Question::Opaque(a, b));
                 let digit = self.sets.digit(2);
                 self.opaque_digits.insert((a, b), digit);
                 digit

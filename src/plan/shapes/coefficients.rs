@@ -13,7 +13,8 @@ use crate::plan::key::{KeyLayout, MAX_BUFFER_BITS};
 use crate::plan::knowledge::Knowledge;
 use crate::plan::setting::Setting;
 use crate::plan::{Coefficients, Fit, Form, Leaf, Piece, Plan, Step, StepId};
-use crate::program::normal::{Affine, Normaliser, Rational, Term, rational};
+use crate::program::normal::{Affine, Normaliser, Term};
+use crate::program::rational::Rational;
 use crate::program::{ExprId, InputId, LevelSet, Node, Pool, Program, TernaryOp};
 
 /// Most sums of one value.
@@ -195,8 +196,8 @@ impl Fitter {
 
 /// A rational as the double that it is, if it is one.
 fn exact(number: Rational) -> Option<f64> {
-    let value = *number.numer() as f64 / *number.denom() as f64;
-    (rational(value) == Some(number)).then_some(value)
+    let value = number.to_f64();
+    (Rational::exact(value) == Some(number)).then_some(value)
 }
 
 /// The bounds that every value of a table is clamped to.

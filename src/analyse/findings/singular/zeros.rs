@@ -6,7 +6,7 @@
 //! list of candidates and no proof that there are no others.
 
 use super::trace::Trace;
-use crate::program::normal::{Normaliser, Rational, Term};
+use crate::program::normal::{Normaliser, Term};
 use crate::program::{BinaryOp, Domain, ExprId, InputId, Node, Program, UnaryOp, Value};
 
 /// Positions along one input at which the sign is looked at.
@@ -69,14 +69,10 @@ fn collect(program: &Program, normaliser: &mut Normaliser, expr: ExprId, all: &m
 fn affine(program: &Program, normaliser: &mut Normaliser, expr: ExprId) -> Option<(Vec<(InputId, f64)>, f64)> {
     let affine = normaliser.affine(&program.pool, expr)?;
     let terms = affine.terms.iter().map(|(term, factor)| match term {
-        Term::Input(input) => Some((*input, quotient(factor))),
+        Term::Input(input) => Some((*input, factor.to_f64())),
         Term::Constant(_) | Term::Unary(..) | Term::Binary(..) | Term::Ternary(..) => None,
     });
-    Some((terms.collect::<Option<_>>()?, quotient(&affine.constant)))
-}
-
-fn quotient(rational: &Rational) -> f64 {
-    *rational.numer() as f64 / *rational.denom() as f64
+    Some((terms.collect::<Option<_>>()?, affine.constant.to_f64()))
 }
 
 impl Zero {

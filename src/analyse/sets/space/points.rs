@@ -2,17 +2,28 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use num_traits::Zero;
-
 use super::{Question, Space, code};
 use crate::analyse::sets::Set;
+use crate::analyse::values::point::Point;
 use crate::analyse::values::real::Boxed;
-use crate::program::normal::{Rational, Term, rational};
+use crate::points::random::Random;
+use crate::program::normal::{Affine, Term};
+use crate::program::rational::Rational;
 use crate::program::region::{self, Sign};
-use crate::program::{Domain, InputId, LevelSet};
+use crate::program::{Domain, Input, InputId, LevelSet};
 
 /// Most steps in the search for real numbers with given signs.
 const MAX_STEPS: usize = 20_000;
+
+/// Most points that are tried where what is not linear decides.
+const MAX_TRIES: usize = 256;
+
+/// How far from zero a value counts as positive or negative, as a share of what it is the sum of: a
+/// hundred roundings of `f32`.
+const MARGIN: f64 = 6e-6;
+
+/// How close to zero a value counts as zero: a few roundings of `f64`.
+const EXACT: f64 = 1e-15;
 
 impl Space<'_> {
     /// What real numbers and levels can reach of a set.
@@ -114,7 +125,7 @@ impl Space<'_> {
         let first = self.inputs_of_digits.len();
         let forms = answers.iter().filter_map(|(digit, sign)| match self.questions[digit - first] {
             Question::Sign(form) => Some((form, *sign)),
-            Question::Opaque => None,
+            Question::Opaque(..) => None,
         });
         forms.collect()
     }
@@ -137,11 +148,57 @@ impl Space<'_> {
         }
         let answers = self.signs(rest)?;
         let signs = self.forms_of(&answers);
+        let linear = |form: &Affine| form.terms.keys().all(|term| matches!(term, Term::Input(_)));
         let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
-        let point = region::point(self.program, with_forms);
-        let linear = signs.iter().all(|(form, _)| self.forms[*form].terms.keys().all(|t| matches!(t, Term::Input(_))));
-        let certain = point.is_some() && linear && signs.len() == answers.len();
-        Some(Witness { levels, numbers: self.numbers(&point.unwrap_or_default()), certain })
+        let point = region::point(self.program, with_forms.filter(|(form, _)| linear(form))).unwrap_or_default();
+        // Signs of what is linear are met by the first candidate; the rest takes luck.
+        let first = self.numbers(&point);
+        let inside = |numbers: &Vec<Option<f64>>| self.contains(rest, numbers);
+        let found = if inside(&first) { Some(first.clone()) } else { self.scattered().find(inside) };
+        Some(Witness { levels, certain: found.is_some(), numbers: found.unwrap_or(first) })
+    }
+
+    /// Numbers all over the domain, the same in every run.
+    fn scattered(&self) -> impl Iterator<Item = Vec<Option<f64>>> {
+        let mut random = Random::new(0);
+        (0..MAX_TRIES).map(move |_| {
+            let mut number = |input: &Input| match &input.domain {
+                Domain::Continuous { lo, hi, .. } => Some(random.unit().mul_add(hi - lo, *lo)),
+                Domain::Discrete(_) => None,
+            };
+            self.program.inputs.iter().map(&mut number).collect()
+        })
+    }
+
+    /// Whether numbers are in a set that tests only comparisons: computed, by a margin that rounding
+    /// cannot take away.
+    fn contains(&self, set: Set, numbers: &[Option<f64>]) -> bool {
+        let numbers = numbers.iter().map(|number| number.unwrap_or_default()).collect();
+        let point = Point { levels: Vec::new(), numbers };
+        let mut rest = set;
+        while let Some((digit, children)) = self.sets.test(rest) {
+            let (value, size) = match self.questions[digit - self.inputs_of_digits.len()] {
+                Question::Sign(form) => self.normaliser.value(&self.forms[form], &point.numbers),
+                Question::Opaque(a, b) => {
+                    let [a, b] = [a, b].map(|side| point.number(&self.pool, side));
+                    (b - a, a.abs() + b.abs())
+                }
+            };
+            let sign = if value > MARGIN * size {
+                Sign::Positive
+            } else if value < -MARGIN * size {
+                Sign::Negative
+            } else if value.abs() <= EXACT * size {
+                Sign::Zero
+            } else {
+                return false;
+            };
+            rest = match self.questions[digit - self.inputs_of_digits.len()] {
+                Question::Sign(_) => children[usize::from(code(sign))],
+                Question::Opaque(..) => children[usize::from(sign != Sign::Positive)],
+            };
+        }
+        !rest.is_empty()
     }
 
     /// An input that reaches a set with these numbers, if one does.
@@ -191,12 +248,11 @@ impl Space<'_> {
         let Question::Sign(form) = self.questions[digit - self.inputs_of_digits.len()] else {
             return LevelSet::all(2);
         };
-        let number = |value: Rational| *value.numer() as f64 / *value.denom() as f64;
         let form = &self.forms[form];
-        let (mut lo, mut hi) = (number(form.constant), number(form.constant));
+        let (mut lo, mut hi) = (form.constant.to_f64(), form.constant.to_f64());
         for (term, factor) in &form.terms {
             let Term::Input(input) = term else { return LevelSet::all(Sign::ALL.len()) };
-            let ((from, to), factor) = (part.of(*input), number(*factor));
+            let ((from, to), factor) = (part.of(*input), factor.to_f64());
             lo += (from * factor).min(to * factor);
             hi += (from * factor).max(to * factor);
         }
@@ -213,7 +269,7 @@ impl Space<'_> {
                 let terms = self.forms[*form].terms.keys();
                 terms.into_iter().any(|term| matches!(term, Term::Input(input) if inputs.contains(input)))
             }
-            Question::Opaque => false,
+            Question::Opaque(..) => false,
         };
         (0..self.questions.len()).filter(|number| involved(&self.questions[*number])).map(|n| n + first).collect()
     }
@@ -228,12 +284,12 @@ impl Space<'_> {
 
     /// A number for every continuous input: that of the point, or one in the middle of nowhere.
     pub(super) fn numbers(&self, point: &BTreeMap<InputId, Rational>) -> Vec<Option<f64>> {
-        let number = |(index, input): (usize, &crate::program::Input)| {
+        let number = |(index, input): (usize, &Input)| {
             let Domain::Continuous { lo, hi, .. } = &input.domain else { return None };
             let known = point.get(&InputId::new(index)).copied();
-            let free = || region::between(rational(*lo)?, rational(*hi)?, index);
-            let chosen = known.or_else(free).unwrap_or_else(Rational::zero);
-            Some(*chosen.numer() as f64 / *chosen.denom() as f64)
+            let free = || region::between(Rational::exact(*lo)?, Rational::exact(*hi)?, index);
+            let chosen = known.or_else(free).unwrap_or(Rational::ZERO);
+            Some(chosen.to_f64())
         };
         self.program.inputs.iter().enumerate().map(number).collect()
     }
@@ -246,6 +302,6 @@ pub(in crate::analyse) struct Witness {
     pub(in crate::analyse) levels: Vec<Option<u8>>,
     /// A number for each continuous input.
     pub(in crate::analyse) numbers: Vec<Option<f64>>,
-    /// Whether these very inputs reach the set; otherwise something that is not linear decides.
+    /// Whether these very inputs reach the set. Otherwise nothing is known of the numbers.
     pub(in crate::analyse) certain: bool,
 }
