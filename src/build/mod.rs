@@ -247,6 +247,10 @@ pub fn find_tables(path: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// # Errors
 /// When a directory or file cannot be written; the message names it.
 pub fn write(directory: &Path, files: &[Artifact]) -> Result<usize, Failure> {
+    if files.is_empty() {
+        // No directory for nothing.
+        return Ok(0);
+    }
     std::fs::create_dir_all(directory).map_err(|error| unwritable(directory, &error))?;
     let home = Home::lock(directory)?;
     let mut pending = Vec::new();
