@@ -90,7 +90,10 @@ fn row(line: &Line<'_>, pairs: &[Pair]) -> Option<(usize, Stops, bool)> {
         return None;
     }
     if open == '{' && is_section(pairs, pair) && ALIGNED.contains(&field) {
-        let value = line.pieces.get(2).filter(|_| line.pieces[1].token.kind == Kind::Colon);
+        // A comment to the end of the line is no value: where it stands is decided among comments.
+        let is_value =
+            |piece: &&Piece<'_>| line.pieces[1].token.kind == Kind::Colon && piece.token.kind != Kind::LineComment;
+        let value = line.pieces.get(2).filter(is_value);
         let stops = value.map(|_| (2, String::new())).into_iter().collect();
         return Some((pair, stops, last.token.kind == Kind::Open));
     }

@@ -17,6 +17,9 @@ use crate::table::Table;
 use crate::text::tokens;
 use crate::text::tokens::{Kind, Token};
 
+/// Most times that a table is laid out before it is given up; nearly all need two.
+const MOST_LAYOUTS: usize = 16;
+
 /// A table as it should be laid out.
 ///
 /// ```
@@ -32,18 +35,41 @@ use crate::text::tokens::{Kind, Token};
 /// When the source is no table.
 pub fn format(source: &Arc<Source>) -> Result<String, Failure> {
     Table::well_formed(source)?;
-    let tokens = tokens::tokens(&source.text);
-    let before = essence(&tokens);
-    let mut rows = rows::rows(tokens);
-    align::align(&mut rows);
-    let text = print::print(&rows);
+    let refuse = |what: &str| {
+        let error = Diagnostic::error(codes::FORMAT, format!("formatting {what}; it is left alone"));
+        Err(Failure::bare(source.name.as_str(), error.help("this is a mistake in Umbrage: please report it")))
+    };
+    let Some(text) = settled(&source.text) else { return refuse("this table would never end") };
     let formatted = Source::new(source.name.as_str(), text.as_str());
     // The table is a function of these tokens, so where they are equal the tables are.
-    if essence(&tokens::tokens(&text)) != before || Table::well_formed(&formatted).is_err() {
-        let error = Diagnostic::error(codes::FORMAT, "formatting would change what this table means; it is left alone");
-        return Err(Failure::bare(source.name.as_str(), error.help("this is a mistake in Umbrage: please report it")));
+    let same = essence(&tokens::tokens(&text)) == essence(&tokens::tokens(&source.text));
+    if !same || Table::well_formed(&formatted).is_err() {
+        return refuse("would change what this table means");
     }
     Ok(text)
+}
+
+/// Lays a text out until that changes nothing more.
+///
+/// Columns of the author's are kept, and what was laid out may have columns that nobody made: cells that came to stand
+/// below each other. Should layouts lead in a circle, the least of them is taken, to which each of the others leads.
+fn settled(text: &str) -> Option<String> {
+    let mut seen = vec![laid_out(text)];
+    while seen.len() < MOST_LAYOUTS {
+        let next = laid_out(seen.last()?);
+        if let Some(first) = seen.iter().position(|text| *text == next) {
+            return seen.drain(first..).min();
+        }
+        seen.push(next);
+    }
+    None
+}
+
+/// Lays a text out once.
+fn laid_out(text: &str) -> String {
+    let mut rows = rows::rows(tokens::tokens(text));
+    align::align(&mut rows);
+    print::print(&rows)
 }
 
 /// What must stay: tokens without the blanks of expressions and without commas

@@ -18,7 +18,6 @@ pub(crate) struct PendingFile {
 
 enum Place {
     /// A file without a name, and the file that its contents go to.
-    #[cfg_attr(not(feature = "cli"), expect(dead_code, reason = "only commands write what comes bit by bit"))]
     File(BufWriter<File>, PathBuf),
     /// The contents, and the file that they go to.
     Whole(Vec<u8>, PathBuf),
