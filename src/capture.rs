@@ -28,7 +28,7 @@ use crate::eval::{ABSENT, Column, Columns};
 use crate::program::{Domain, Input, Program};
 use crate::text::file::{read_bytes, shown};
 
-/// What every capture begins with.
+/// The first bytes of every capture.
 pub const MAGIC: [u8; 8] = *b"\x89umbrage";
 
 const VERSION: u32 = 1;
@@ -76,7 +76,7 @@ impl Kind {
 pub struct Capture {
     /// The points.
     pub columns: Columns<f32>,
-    /// Whether the table was another text when the capture was made. Its inputs are the same.
+    /// True if the table was another text when the capture was made. Its inputs are the same.
     pub table_changed: bool,
 }
 
@@ -162,7 +162,7 @@ pub fn write_csv(program: &Program, columns: &Columns<f32>, out: &mut impl Write
     Ok(())
 }
 
-/// Whether bytes are the beginning of a capture.
+/// Returns whether bytes are the beginning of a capture.
 pub fn is_capture(bytes: &[u8]) -> bool {
     bytes.starts_with(&MAGIC)
 }

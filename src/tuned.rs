@@ -1,4 +1,4 @@
-//! What was tuned for a device, as a file.
+//! The choices for a device, as a file.
 //!
 //! One file per device holds the choice for every table that was tuned on it,
 //! with the evidence. Reading it needs no device, so that a build can use what
@@ -16,7 +16,7 @@ use crate::text::file::{read_text, shown};
 const VERSION: u32 = 1;
 const MAX_BYTES: u64 = 16 << 20;
 
-/// What was tuned on a device.
+/// The choices for a device.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tuned {
@@ -37,15 +37,15 @@ pub struct Choice {
     pub fingerprint: String,
     /// The plan, as `--plan` takes it.
     pub plan: String,
-    /// Whether the plan relies on the table's assumptions.
+    /// True if the plan relies on the table's assumptions.
     pub assume: bool,
     /// The profile that it was planned for.
     pub profile: String,
     /// The version of umbrage that measured.
     pub umbrage: String,
-    /// How it was measured.
+    /// The method of measurement.
     pub method: String,
-    /// What was measured.
+    /// The measurements.
     pub evidence: Vec<Evidence>,
 }
 
@@ -71,7 +71,7 @@ impl Tuned {
         Self { version: VERSION, device: device.to_owned(), tables: Vec::new() }
     }
 
-    /// Where the choices for a device are kept in a directory.
+    /// The file of a device's choices in a directory.
     pub fn path(directory: &Path, device: &str) -> PathBuf {
         directory.join(format!("{}.ron", slug(device)))
     }
@@ -127,9 +127,9 @@ impl Tuned {
 pub struct Auto {
     /// Its shape.
     pub shape: Shape,
-    /// Whether it relies on the table's assumptions.
+    /// True if it relies on the table's assumptions.
     pub assume: bool,
-    /// Whether it was tuned, rather than being the default.
+    /// True if it was tuned, rather than being the default.
     pub tuned: bool,
 }
 

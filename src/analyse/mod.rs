@@ -1,7 +1,7 @@
 //! Findings: what is questionable about a program that has a meaning.
 //!
 //! A table that is malformed never gets here; [`Program::check`] refuses it.
-//! What is found here is about intent: an example that the table contradicts,
+//! Findings are about intent: an example that the table contradicts,
 //! a declaration that nothing uses, cases that contradict each other. Each
 //! analysis is a file of its own.
 

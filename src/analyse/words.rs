@@ -1,4 +1,4 @@
-//! How findings put things: inputs as `explain` takes them, sets of inputs as
+//! The words of findings: inputs as `explain` takes them, sets of inputs as
 //! conditions, formulas, lists.
 
 use super::sets::Set;

@@ -9,7 +9,7 @@ use crate::table::draw::Side;
 
 /// Side of the cell.
 pub(super) const CELL: i32 = 104;
-/// How much is seen of each neighbour.
+/// The visible part of each neighbour.
 pub(super) const STUB: i32 = 46;
 
 const INK: &str = "#1d1f23";
@@ -19,7 +19,7 @@ const MARK: &str = "#d9480f";
 
 const SIDES: [Side; 4] = [Side::Left, Side::Right, Side::Top, Side::Bottom];
 
-/// What the hints make of a point.
+/// A point as the hints draw it.
 pub(super) struct Cell<'p> {
     program: &'p Program,
     point: &'p [Option<Value>],
@@ -41,7 +41,7 @@ impl Rect {
         }
     }
 
-    /// What is seen of the neighbour at a side.
+    /// The visible part of the neighbour at a side.
     fn neighbour(self, side: Side) -> Self {
         let Rect(x, y, w, h) = self;
         match side {
@@ -58,12 +58,12 @@ impl<'p> Cell<'p> {
         Self { program, point }
     }
 
-    /// Whether the table has runs, which need room beside the cell.
+    /// Returns whether the table has runs, which need room beside the cell.
     pub(super) fn has_runs(program: &Program) -> bool {
         program.draw.iter().any(|(_, draw)| matches!(draw, Draw::Run { .. }))
     }
 
-    /// Whether anything is said of the sides, so that there are neighbours to be seen.
+    /// Returns whether anything is said of the sides, so that there are neighbours to be seen.
     pub(super) fn has_sides(program: &Program) -> bool {
         program.draw.iter().any(|(_, draw)| matches!(draw, Draw::Sides { .. }))
     }

@@ -208,7 +208,7 @@ fn like(program: &Program, arrival: &Arrival, shown: Option<&Arrival>) -> Vec<Op
     point
 }
 
-/// Where the case stands, and how often it is taken.
+/// The section of the case, and its share.
 fn footing(program: &Program, index: usize, reached: &Reach, share: Option<f64>, y: &mut i32) -> Markup {
     let row = &program.rows[index];
     // A line number would change with every line above it; the section says the same.
@@ -235,7 +235,7 @@ fn footing(program: &Program, index: usize, reached: &Reach, share: Option<f64>,
     }
 }
 
-/// Whether results are greys between black and white, so that a scale can be shown.
+/// Returns whether results are greys between black and white, so that a scale can be shown.
 pub(super) fn is_grey(program: &Program) -> bool {
     matches!(program.output, Output::Number)
 }

@@ -85,7 +85,7 @@ fn subtitle(program: &Program) -> String {
     format!("{} cases, {policy}; {} states{source}", program.rows.len(), program.states.count())
 }
 
-/// What the marks in the panels mean, as a drawing of its own.
+/// The meaning of the marks in the panels, as a drawing of its own.
 fn legend(program: &Program) -> String {
     let width = COLUMNS as i32 * (PANEL_WIDTH + GAP) + GAP;
     let (markup, height) = legend_at(program, width);

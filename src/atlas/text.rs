@@ -4,7 +4,7 @@ use crate::diag::Span;
 use crate::program::print::Printer;
 use crate::program::{Program, Row};
 
-/// What a line of a case says.
+/// A line of a case in words.
 pub(crate) struct LineText {
     /// The value.
     pub(crate) value: String,
@@ -35,7 +35,7 @@ pub(crate) fn lines(program: &Program, row: &Row) -> Vec<LineText> {
     texts.collect()
 }
 
-/// Whether a row has its own text; the image of another case has not.
+/// Returns whether a row has its own text; the image of another case has not.
 fn written_out(row: &Row) -> bool {
     row.lines.iter().all(|line| line.span.start >= row.span.start && line.span.end <= row.span.end)
 }

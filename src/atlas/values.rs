@@ -20,7 +20,7 @@ const LEVELS: [[u8; 3]; 8] = [
     [90, 90, 90],
 ];
 
-/// Which numbers are black and white.
+/// The numbers that are black and white.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Scale {
     pub(super) black: f64,

@@ -17,12 +17,12 @@ use crate::table::Table;
 use crate::text::file::shown;
 use crate::tuned::slug;
 
-/// What a run is asked for.
+/// The order for a run.
 #[derive(Debug, Clone, Default)]
 pub struct Request {
     /// Tables, or directories of tables.
     pub paths: Vec<PathBuf>,
-    /// What to make of each table. What was tuned is read from files, not taken from here.
+    /// The files to make of each table. Choices of the tuner are read from files, not taken from here.
     pub options: Options,
     /// Profiles to plan for, each for the table that it counts. A table that none of them counts is planned for
     /// `profiles/TABLE.ron` beside the directory of the tables, if there is one.
@@ -31,18 +31,18 @@ pub struct Request {
     pub tuned: Option<PathBuf>,
     /// Of what was tuned, only what was chosen on this device.
     pub device: Option<String>,
-    /// What becomes of findings.
+    /// The levels of findings.
     pub levels: LintLevels,
     /// Names of [skeletons](crate::skeleton) to write beside the tables.
     pub skeletons: Vec<String>,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Debug, Clone, Default)]
 pub struct Batch {
     /// The tables that could be built, each with its programs.
     pub tables: Vec<(Vec<Program>, Built)>,
-    /// What is to be said, in the order found: errors and warnings.
+    /// Errors and warnings, in the order found.
     pub messages: Vec<Failure>,
     /// The files and directories that the run depends on, as far as they exist.
     pub inputs: BTreeSet<PathBuf>,
@@ -51,12 +51,12 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// Whether there are errors. Nothing should be written then.
+    /// Returns whether there are errors. Nothing should be written then.
     pub fn failed(&self) -> bool {
         self.has(Severity::Error)
     }
 
-    /// Whether there are warnings.
+    /// Returns whether there are warnings.
     pub fn warned(&self) -> bool {
         self.has(Severity::Warning)
     }
@@ -177,7 +177,7 @@ fn collect(request: &Request) -> Batch {
     batch
 }
 
-/// Where the profiles of tables are.
+/// The places of the profiles of tables.
 struct Evidence<'a> {
     given: &'a [NamedProfile],
     directory: Option<PathBuf>,

@@ -1,6 +1,6 @@
-//! What was counted and tuned for tables: profiles, and the choices of `umbrage tune`.
+//! The evidence that plans are made with: profiles, and the choices of `umbrage tune`.
 //!
-//! Where nothing else is asked for, both lie beside the directory of the
+//! Unless something else is asked for, both lie beside the directory of the
 //! tables: `profiles/smsr.ron` and `tuned/*.ron` for `tables/smsr.ron`.
 
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ pub fn profile_of(table: &str, directory: &Path) -> Result<Option<NamedProfile>,
     Ok(Some((path, profile)))
 }
 
-/// What was tuned, on every device that has a file in a directory, sorted by file name.
+/// The choices for every device that has a file in a directory, sorted by file name.
 ///
 /// # Errors
 /// When the directory or a file in it cannot be read.

@@ -25,21 +25,21 @@ pub use batch::{Batch, Request, run};
 pub use evidence::{NamedProfile, beside, profile_of, tuned_in, weigh};
 pub use tables::{Errors, Tables};
 
-/// What to make of each table.
+/// The files to make of each table.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The code shapes.
     pub shapes: Vec<Shape>,
     /// The languages.
     pub targets: Vec<Target>,
-    /// Whether to make, too, what was tuned, or else the default of [`Auto`].
+    /// True if the tuned plan is made, too, or else the default of [`Auto`].
     pub auto: bool,
-    /// What was tuned, on each device.
+    /// The choices for each device.
     pub tuned: Vec<Tuned>,
-    /// Whether plans may do anything where a table's assumptions do not hold.
+    /// True if plans may do anything where a table's assumptions do not hold.
     /// A tuned plan does as it was tuned.
     pub assume: bool,
-    /// How often the states of each table occur, by its name.
+    /// The frequency of each table's states, by its name.
     pub weights: BTreeMap<String, Weights>,
 }
 
@@ -61,9 +61,9 @@ impl Default for Options {
 /// A generated file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Artifact {
-    /// Where it goes, relative to the output directory: `table/plan.extension`.
+    /// Its place in the output directory: `table/plan.extension`.
     pub path: PathBuf,
-    /// What it contains.
+    /// Its bytes.
     pub contents: Vec<u8>,
 }
 
@@ -85,7 +85,7 @@ pub struct Built {
 pub struct BuiltPlan {
     /// The name of its files.
     pub name: String,
-    /// What the proof found.
+    /// The findings of the proof.
     pub proof: Proof,
     /// The devices on which it was chosen.
     pub chosen_on: Vec<String>,

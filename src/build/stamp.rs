@@ -1,4 +1,4 @@
-//! What a build script made last time, so that it need not make it again.
+//! The record of what a build script made last time, so that it need not make it again.
 //!
 //! Cargo runs a build script again for many reasons, most of which have nothing
 //! to do with tables. A stamp, kept in `OUT_DIR` beside the generated files,
@@ -20,16 +20,16 @@ const NAME: &str = "umbrage.stamp";
 /// Largest file that is looked at. What is larger counts as changed.
 const MAX_BYTES: u64 = 256 << 20;
 
-/// What was made last time is as it would be made now.
+/// The files of last time, which are as they would be made now.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Fresh {
-    /// What was said then.
+    /// The warnings of that time.
     pub(super) warnings: Vec<String>,
-    /// What it was made from.
+    /// The files that it was made from.
     pub(super) inputs: Vec<PathBuf>,
 }
 
-/// Whether the files that a request asks for are there already.
+/// Finds the files that a request asks for, if they are there already.
 pub(super) fn fresh(place: &Path, request: &Request, output: &Path) -> Option<Fresh> {
     let text = file::read_text(&place.join(NAME), MAX_BYTES).ok()?;
     let mut lines = text.lines();

@@ -1,4 +1,4 @@
-//! What a build script calls.
+//! The interface for build scripts.
 //!
 //! ```no_run
 //! // build.rs
@@ -221,7 +221,7 @@ impl Tables {
     }
 }
 
-/// Where copies go that people can read.
+/// The directory for copies that people can read.
 fn copies() -> Option<PathBuf> {
     let directory = PathBuf::from(std::env::var_os(COPIES).filter(|directory| !directory.is_empty())?);
     Some(match std::env::var_os("CARGO_PKG_NAME") {

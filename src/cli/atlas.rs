@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     /// The function of a table of functions
     #[arg(long, value_name = "NAME")]
     function: Option<String>,
-    /// Where it goes; the extension (svg, png, html) says in which form
+    /// The file to write; the extension (svg, png, html) says in which form
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
     /// Profile: how often each case is taken

@@ -98,7 +98,7 @@ fn once(arguments: &Arguments, request: &Request, report: &Report) -> Result<(Ou
 }
 
 impl Arguments {
-    /// What the arguments ask for.
+    /// The order that the arguments amount to.
     fn request(&self) -> Request {
         let mut options = Options { assume: self.assume, ..Options::default() };
         if !self.plan.is_empty() {

@@ -134,7 +134,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     Ok(outcome)
 }
 
-/// What `auto` stands for on this device, besides the plans that are named. If
+/// Adds what `auto` stands for on this device to the plans that are named. If
 /// it relies on assumptions, so do they: all are compared at the same points.
 fn with_auto(
     program: &Program,

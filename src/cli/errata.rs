@@ -25,7 +25,7 @@ pub(super) struct ErrataArguments {
     /// Start of the random numbers
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     seed: u64,
-    /// Where the report goes, in Markdown; `-` is standard output
+    /// The file for the report, in Markdown; `-` is standard output
     #[arg(long, short, value_name = "FILE", default_value = "-")]
     output: PathBuf,
 }

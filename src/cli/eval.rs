@@ -35,7 +35,7 @@ pub(super) struct Arguments {
     /// Rows of inputs: CSV with a header, *.json with an array of objects, or *.bin, a capture; `-` is standard input
     #[arg(long, default_value = "-", value_name = "FILE")]
     input: PathBuf,
-    /// Where the answers go, one per row: CSV, or *.json; `-` is standard output
+    /// The file for the answers, one per row: CSV, or *.json; `-` is standard output
     #[arg(long, default_value = "-", value_name = "FILE")]
     output: PathBuf,
     /// Floating-point type
@@ -48,7 +48,7 @@ pub(super) struct Arguments {
     machine: Machine,
 }
 
-/// What computes the answers.
+/// The executor that computes the answers.
 enum Executor<'a> {
     Interpreter,
     #[cfg(feature = "gpu")]

@@ -1,4 +1,4 @@
-//! How diagnostics reach the user: excerpts in colour, or JSON by the line.
+//! Diagnostics for the user: excerpts in colour, or JSON by the line.
 
 use std::io::{self, IsTerminal, Write};
 

@@ -122,7 +122,7 @@ enum Command {
     Man(completions::ManArguments),
 }
 
-/// How a command ended that was able to do its work.
+/// The end of a command that was able to do its work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Outcome {
     /// Nothing to complain about.

@@ -13,7 +13,7 @@ use crate::text::file::shown;
 
 const TABLE: &str = include_str!("new/starter.ron");
 const SCRIPT: &str = include_str!("new/build.rs.txt");
-/// What stands in both for the name of the table.
+/// The placeholder for the name of the table in both.
 const PLACEHOLDER: &str = "STARTER";
 
 /// Arguments of `umbrage new`.

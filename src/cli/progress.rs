@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::diag::visible;
 
-/// How long something may take without a word.
+/// The longest time without a word.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// The progress of a command, on standard error if that is a terminal.

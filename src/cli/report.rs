@@ -17,13 +17,13 @@ pub(super) struct Arguments {
     /// The function of a table of functions
     #[arg(long, value_name = "NAME")]
     function: Option<String>,
-    /// Where the page goes
+    /// The file for the page
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
     /// Profile: how often each case is taken
     #[arg(long, value_name = "FILE")]
     profile: Option<PathBuf>,
-    /// What `umbrage tune` chose on some device
+    /// The choice of `umbrage tune` on some device
     #[arg(long, value_name = "FILE")]
     tuned: Option<PathBuf>,
 }

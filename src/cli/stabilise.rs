@@ -18,7 +18,7 @@ pub(super) struct Arguments {
     /// Table of functions
     #[arg(value_name = "TABLE")]
     table: PathBuf,
-    /// Where the new table goes; `-` is standard output
+    /// The file for the new table; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: PathBuf,
     /// Do not measure what was reached; measuring takes some seconds
@@ -63,7 +63,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     Ok(if left { Outcome::Findings } else { Outcome::Clean })
 }
 
-/// What became of a function, in words.
+/// The fate of a function, in words.
 fn outcome(outcome: &stabilise::Outcome) -> String {
     match outcome {
         stabilise::Outcome::Rewritten => "rewritten".to_owned(),
@@ -105,7 +105,7 @@ fn json(name: &str, stabilised: &Stabilised, certificates: &[Certificate]) -> se
     })
 }
 
-/// What was done and what was reached.
+/// The changes, and the accuracy that they reach.
 fn summary(name: &str, stabilised: &Stabilised, certificates: &[Certificate]) -> String {
     let mut text = format!("Rewritten from {name} by `umbrage stabilise`.\n\nFormulas:\n");
     for (function, what) in &stabilised.functions {

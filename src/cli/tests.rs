@@ -1,4 +1,4 @@
-//! What the documentation tells people to type is accepted.
+//! Commands in the documentation are accepted as they stand.
 
 use std::path::{Path, PathBuf};
 

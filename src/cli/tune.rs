@@ -58,7 +58,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().rows_of_thread,
           value_parser = clap::value_parser!(u32).range(1..=1024))]
     rows_of_thread: u32,
-    /// How often all rows are evaluated in one measurement; more for fast devices
+    /// Evaluations of all rows in one measurement; more for fast devices
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().repeats,
           value_parser = clap::value_parser!(u32).range(1..=10_000))]
     repeats: u32,
@@ -86,7 +86,7 @@ pub(super) struct Arguments {
     /// Directory of the choices, one file per device
     #[arg(long, short, value_name = "DIR", default_value = "tuned")]
     output: PathBuf,
-    /// Where the report goes, an HTML page [default: none]
+    /// The file for the report, an HTML page [default: none]
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 }

@@ -19,7 +19,7 @@ type Files = BTreeMap<PathBuf, Option<(SystemTime, u64)>>;
 
 /// Files and directories, as they were when last looked at.
 pub(super) struct Watched {
-    /// What is always looked at.
+    /// The files that are always looked at.
     always: BTreeSet<PathBuf>,
     /// Each of them, and each that the last run read, with the files in it.
     seen: BTreeMap<PathBuf, Files>,

@@ -53,7 +53,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     Ok(Outcome::Clean)
 }
 
-/// How often a case is taken: over all, then in each scene.
+/// The share of a case: over all, then in each scene.
 fn shares(profile: &Profile, case: u32) -> Vec<(String, f64)> {
     let found = profile::frequencies(profile).into_iter().find(|frequency| frequency.case == Some(case));
     let scenes = profile.scenes.iter().enumerate().map(|(number, scene)| {

@@ -34,16 +34,16 @@ const BATCH: usize = 100_000;
 /// Offenders that are kept for the report.
 const KEPT: usize = 5;
 
-/// What to compare.
+/// The plans to compare, and the points.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The plans; those that do not suit a table are left out.
     pub shapes: Vec<Shape>,
-    /// How many points.
+    /// The number of points.
     pub effort: Effort,
-    /// Whether plans may make use of the table's assumptions.
+    /// True if plans may make use of the table's assumptions.
     pub assume: bool,
-    /// How often each state occurs, for plans that are made for that.
+    /// The frequency of each state, for plans that are made for that.
     pub weights: Option<Weights>,
 }
 
@@ -94,7 +94,7 @@ pub struct Run {
 pub struct Offender {
     /// The inputs, as `umbrage explain --at` takes them.
     pub inputs: String,
-    /// What was expected and what came.
+    /// The result, and the one that was expected.
     pub reason: String,
 }
 
@@ -284,14 +284,14 @@ fn internal(program: &Program, message: &str) -> Failure {
     Failure::new(program.source.clone(), error.help("please report this: points are made from the table itself"))
 }
 
-/// What a plan may do otherwise than the table.
+/// The differences from the table that a plan may have.
 #[derive(Debug, Clone, Copy)]
 struct Leeway {
     /// The case it reports need not be the one that the table takes.
     other_case: bool,
     /// It may do anything where an assumption does not hold.
     assumed: bool,
-    /// How far off a value may be, and an input; zero for a plan that computes as the table does.
+    /// The error that a value, and an input, may have; zero for a plan that computes as the table does.
     slack: f64,
 }
 

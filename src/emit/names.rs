@@ -28,7 +28,7 @@ pub(super) struct Set {
     pub(super) name: String,
     /// The constants of its levels.
     pub(super) constants: Vec<String>,
-    /// What they are.
+    /// The levels.
     pub(super) levels: Levels,
 }
 

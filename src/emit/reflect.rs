@@ -11,7 +11,7 @@ use naga::{AddressSpace, Binding, Expression, Handle, ImageClass, ScalarKind, St
 
 use super::Validated;
 
-/// What a module asks of its host.
+/// The resources that a module asks of its host.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interface {
     /// The declared variables that the host binds.
@@ -40,7 +40,7 @@ pub enum Kind {
     Uniform,
     /// A storage buffer.
     Storage {
-        /// Whether shaders may write to it.
+        /// True if shaders may write to it.
         writable: bool,
     },
     /// A texture that is loaded from, gathered from, or sampled.
@@ -49,16 +49,16 @@ pub enum Kind {
         texels: Texels,
         /// Its dimension.
         dimension: Dimension,
-        /// Whether a texel has several samples.
+        /// True if a texel has several samples.
         multisampled: bool,
     },
     /// A texture whose texels are read or written without a sampler.
     StorageTexture {
         /// The format, as naga spells it: `Rgba8Unorm`.
         format: String,
-        /// Whether shaders read it.
+        /// True if shaders read it.
         reads: bool,
-        /// Whether shaders write it.
+        /// True if shaders write it.
         writes: bool,
         /// Its dimension.
         dimension: Dimension,
@@ -72,7 +72,7 @@ pub enum Kind {
 pub enum Texels {
     /// Numbers.
     Float {
-        /// Whether some function samples it, so that neighbours may be mixed.
+        /// True if some function samples it, so that neighbours may be mixed.
         filtered: bool,
     },
     /// Signed integers.

@@ -1,4 +1,4 @@
-//! Which results a WGSL implementation may give at a point.
+//! The results that a WGSL implementation may give at a point.
 //!
 //! [`IntervalInterpreter`] evaluates a program in [`Interval`]s. Where a
 //! comparison can go either way it follows both, and the union of the outcomes
@@ -55,7 +55,7 @@ pub struct Admissible {
 }
 
 impl Admissible {
-    /// Whether a result is admissible.
+    /// Returns whether a result is admissible.
     pub fn contains(&self, row: Option<usize>, values: &[f32]) -> bool {
         let fits = |possible: &Possible| {
             possible.values.len() == values.len() && possible.values.iter().zip(values).all(|(i, v)| i.contains(*v))
@@ -63,7 +63,7 @@ impl Admissible {
         self.everything || self.outcomes.iter().any(|possible| possible.row == row && fits(possible))
     }
 
-    /// Whether a result is admissible that fetched these inputs.
+    /// Returns whether a result is admissible that fetched these inputs.
     pub fn contains_fetching(&self, row: Option<usize>, values: &[f32], fetched: InputSet) -> bool {
         let fits = |possible: &Possible| {
             fetched.minus(possible.fetched).is_empty()
@@ -72,7 +72,7 @@ impl Admissible {
         self.everything || self.outcomes.iter().any(|possible| possible.row == row && fits(possible))
     }
 
-    /// Whether values are admissible with whichever row.
+    /// Returns whether values are admissible with whichever row.
     pub fn contains_values(&self, values: &[f32]) -> bool {
         self.everything || self.outcomes.iter().any(|possible| self.contains(possible.row, values))
     }
@@ -89,7 +89,7 @@ impl Admissible {
     }
 }
 
-/// What an evaluation decided where it could go either way.
+/// A decision of an evaluation that could go either way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Choice {
     Comparison(CondId),
@@ -109,11 +109,11 @@ pub struct IntervalInterpreter<'p> {
     exact: Interpreter<'p, f32>,
     point: Vec<Option<Value>>,
     choices: Vec<(Choice, bool)>,
-    /// What the evaluation under way has fetched.
+    /// The inputs that the evaluation under way has fetched.
     fetched: Cell<InputSet>,
-    /// How far every continuous input may be off.
+    /// The error that every continuous input may have.
     slack: f64,
-    /// What operations came to in this evaluation, so that what is shared is computed once.
+    /// The results of operations in this evaluation, so that what is shared is computed once.
     known: RefCell<Vec<Option<Interval>>>,
 }
 

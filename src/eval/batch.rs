@@ -63,7 +63,7 @@ impl<'p, T: Real> Batch<'p, T> {
         }
     }
 
-    /// How many different trees the states seen so far have.
+    /// The number of different trees of the states seen so far.
     pub fn arms(&self) -> usize {
         self.roots.len()
     }

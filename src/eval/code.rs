@@ -36,7 +36,7 @@ enum Instruction<T> {
 pub(super) struct Code<T> {
     /// Each writes the register beside it, which is never one it reads.
     instructions: Vec<(usize, Instruction<T>)>,
-    /// Where the terms are afterwards.
+    /// The places of the terms afterwards.
     pub(super) outputs: Vec<Operand<T>>,
     registers: usize,
 }

@@ -23,7 +23,7 @@ pub enum Column<T> {
     Numbers {
         /// The number of each row; anything where it is absent.
         values: Vec<T>,
-        /// Whether it is there; `None` if it is in every row.
+        /// The rows in which it is there; `None` if it is in every row.
         present: Option<Vec<bool>>,
     },
 }
@@ -49,14 +49,14 @@ pub struct Columns<T> {
     gaps: InputSet,
 }
 
-/// What is wrong with values given as columns.
+/// A mistake in values given as columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColumnError {
     /// There are more or fewer columns, or values in a row, than inputs.
     Count {
-        /// How many there are.
+        /// The number given.
         found: usize,
-        /// How many inputs there are.
+        /// The number of inputs.
         expected: usize,
     },
     /// Levels for a continuous input or numbers for a discrete one.
@@ -277,12 +277,12 @@ impl<T: Real> Columns<T> {
         self.gaps = self.gaps.or(other.gaps);
     }
 
-    /// How many points there are.
+    /// The number of points.
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there is no point.
+    /// Returns whether there is no point.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -313,7 +313,7 @@ impl<T: Real> Columns<T> {
         self.gaps
     }
 
-    /// Whether an input has a value in a row.
+    /// Returns whether an input has a value in a row.
     pub fn is_present(&self, row: usize, input: InputId) -> bool {
         match self.column(input) {
             Column::Levels(levels) => levels[row] != ABSENT,
@@ -335,14 +335,14 @@ impl<T: Real> Columns<T> {
         (0..self.columns.len()).map(|index| self.value(row, InputId::new(index))).collect()
     }
 
-    /// Whether these are points of `program`.
+    /// Returns whether these are points of `program`.
     pub fn fit(&self, program: &Program) -> bool {
         let empty = Self::new(program);
         self.counts == empty.counts && self.fetched == empty.fetched
     }
 }
 
-/// How a result came about.
+/// The way to a result: its case, its line, and its fetches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Path {
     /// The row taken, as an index into [`Program::rows`]; `None` for the default.
@@ -371,17 +371,17 @@ impl<T> Default for Results<T> {
 }
 
 impl<T: Real> Results<T> {
-    /// How many results there are.
+    /// The number of results.
     pub fn len(&self) -> usize {
         self.path.len()
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub fn is_empty(&self) -> bool {
         self.path.is_empty()
     }
 
-    /// How the result at a point came about.
+    /// The way to the result at a point.
     pub fn path(&self, point: usize) -> Path {
         self.paths[self.path[point] as usize]
     }
@@ -401,7 +401,7 @@ impl<T: Real> Results<T> {
         &self.values[component]
     }
 
-    /// How many components a result has.
+    /// The number of components of a result.
     pub fn components(&self) -> usize {
         self.values.len()
     }
@@ -412,7 +412,7 @@ impl<T: Real> Results<T> {
         Outcome { row, line, values: self.values.iter().map(|component| component[point]).collect(), fetched }
     }
 
-    /// How many points each path was taken at, for the paths taken.
+    /// The number of points of each path that was taken.
     pub fn histogram(&self) -> Vec<(Path, usize)> {
         let mut counts = vec![0; self.paths.len()];
         for path in &self.path {

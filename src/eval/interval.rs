@@ -31,7 +31,7 @@ const NORMAL: f64 = f32::MIN_POSITIVE as f64;
 /// The magnitudes for which the accuracy of a quotient is stated: 2^±126.
 const DIVISOR: (f64, f64) = (NORMAL, 1.0 / NORMAL);
 
-/// How far a result may be from the exact one.
+/// The error that a result may have.
 #[derive(Debug, Clone, Copy)]
 enum Error {
     Absolute(f64),
@@ -67,17 +67,17 @@ impl Interval {
         self.hi
     }
 
-    /// Whether anything is admissible.
+    /// Returns whether anything is admissible.
     pub fn is_any(self) -> bool {
         self.lo == f64::NEG_INFINITY
     }
 
-    /// Whether `value` is admissible.
+    /// Returns whether `value` is admissible.
     pub fn contains(self, value: f32) -> bool {
         self.is_any() || (self.lo..=self.hi).contains(&f64::from(value))
     }
 
-    /// Whether all of `other` is admissible.
+    /// Returns whether all of `other` is admissible.
     pub fn covers(self, other: Self) -> bool {
         self.is_any() || (self.lo <= other.lo && other.hi <= self.hi)
     }
@@ -128,12 +128,12 @@ impl Interval {
         Self::around(below(lo) - reach(lo), above(hi) + reach(hi))
     }
 
-    /// Whether all values are between the bounds.
+    /// Returns whether all values are between the bounds.
     fn within(self, lo: f64, hi: f64) -> bool {
         lo <= self.lo && self.hi <= hi
     }
 
-    /// Whether all magnitudes are between the bounds.
+    /// Returns whether all magnitudes are between the bounds.
     fn magnitude_within(self, (lo, hi): (f64, f64)) -> bool {
         self.within(lo, hi) || self.within(-hi, -lo)
     }
@@ -244,7 +244,7 @@ impl Interval {
         }
     }
 
-    /// Whether the comparison holds for all values or for none; `None` if that depends on which are taken.
+    /// Returns whether the comparison holds for all values or for none; `None` if that depends on which are taken.
     pub fn compare(self, op: Comparison, other: Self) -> Option<bool> {
         if self.is_any() || other.is_any() {
             return None;

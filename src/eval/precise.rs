@@ -33,7 +33,7 @@ pub(crate) const NOTHING: f64 = 1e-18;
 /// Nothing needs directed rounding: the spare bits are many.
 const ROUND: RoundingMode = RoundingMode::None;
 
-/// What keeps a point from being evaluated.
+/// An obstacle to the evaluation of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unknown {
     /// An input that is needed has no value.

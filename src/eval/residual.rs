@@ -1,4 +1,4 @@
-//! What is left of a program once the plain discrete inputs are known.
+//! The rest of a program once the plain discrete inputs are known.
 //!
 //! For one discrete state most guards are decided. The [`Residual`] of a state
 //! is the small decision tree that remains: fetches, tests of fetched levels,
@@ -68,7 +68,7 @@ impl TreeId {
     }
 }
 
-/// What remains to be done.
+/// The work that remains.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(super) enum Tree {
     /// Fetch the input, then go on.
@@ -117,7 +117,7 @@ pub(super) struct Residual<'p, T> {
     precision: PhantomData<T>,
 }
 
-/// What is known on the way to a place in the tree.
+/// The facts known on the way to a place in the tree.
 #[derive(Debug, Clone)]
 struct Known {
     levels: Vec<LevelSet>,
@@ -381,7 +381,7 @@ impl<'p, T: Real> Residual<'p, T> {
         Some(self.choose(condition, then, other))
     }
 
-    /// Whether an expression, with what was seen before it, is not too much that is not computed anyway.
+    /// Returns whether an expression, with what was seen before it, is not too much that is not computed anyway.
     fn adds_few(&self, expr: ExprId, seen: &mut HashSet<ExprId>) -> bool {
         if self.memo.contains_key(&expr) || !seen.insert(expr) {
             return true;

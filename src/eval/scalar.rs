@@ -30,7 +30,7 @@ pub struct Interpreter<'p, T> {
     numbers: Vec<T>,
     fetched: InputSet,
     point: Vec<Option<Value>>,
-    /// What operations came to at this point, so that what is shared is computed
+    /// The results of operations at this point, so that what is shared is computed
     /// once; none for programs that are small when written out.
     known: Vec<Option<T>>,
 }
@@ -131,7 +131,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
         Ok(())
     }
 
-    /// Whether a condition holds at the current point.
+    /// Returns whether a condition holds at the current point.
     ///
     /// # Errors
     /// With the first input that is needed but absent.

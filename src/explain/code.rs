@@ -77,7 +77,7 @@ mod tests {
     use crate::program::Program;
     use crate::table::Table;
 
-    /// What an example of `docs/codes.md` leaves out.
+    /// The fields that an example of `docs/codes.md` leaves out.
     const FRAME: [(&str, &str); 7] = [
         ("language", "1"),
         ("name", "\"example\""),

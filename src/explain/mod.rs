@@ -26,11 +26,11 @@ const LEGIBLE: u32 = 80;
 pub struct Tested {
     /// The condition.
     pub condition: String,
-    /// What decided it, such as `tV is positive_negative`.
+    /// The facts that decided it, such as `tV is positive_negative`.
     pub facts: Vec<String>,
 }
 
-/// What led to a result.
+/// The way to a result.
 #[derive(Debug, Clone)]
 pub struct Explanation {
     /// The point.
@@ -47,7 +47,7 @@ pub struct Explanation {
     pub line: Option<usize>,
     /// The parts of its condition; none, if it has none.
     pub line_condition: Vec<Tested>,
-    /// How the result is computed, operands first.
+    /// The computation of the result, operands first.
     pub steps: Vec<Step>,
     /// The components of the result.
     pub values: Vec<f64>,
@@ -177,7 +177,7 @@ impl<'p, T: Real> Witness<'p, T> {
         Ok(Tested { condition: self.cond(condition), facts })
     }
 
-    /// What is looked at to decide a condition, in order.
+    /// Collects the facts that decide a condition, in order.
     fn facts(&mut self, condition: CondId, facts: &mut Vec<String>) -> Result<(), NeedsFetch> {
         let program = self.program;
         match program.pool.cond(condition) {

@@ -11,7 +11,7 @@ use crate::show;
 /// One operation of a computation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Step {
-    /// What its result is called: a name of the table, `#1` and so on, or `value` at the end.
+    /// The name of its result: one of the table, `#1` and so on, or `value` at the end.
     pub name: String,
     /// The operation on names, such as `1 + px`.
     pub formula: String,
@@ -41,7 +41,7 @@ struct Steps<'w, 'p, T> {
     witness: &'w mut Witness<'p, T>,
     /// Names that mean something already.
     taken: HashSet<String>,
-    /// What the results of earlier steps are called.
+    /// The names of the results of earlier steps.
     done: HashMap<ExprId, String>,
     list: Vec<Step>,
     anonymous: usize,
@@ -66,7 +66,7 @@ impl<T: Real> Steps<'_, '_, T> {
         Ok(())
     }
 
-    /// What an expression is called, after the steps that compute it.
+    /// The name of an expression, after the steps that compute it.
     fn operand(&mut self, expr: ExprId) -> Result<String, NeedsFetch> {
         if let Some(name) = self.done.get(&expr) {
             return Ok(name.clone());

@@ -8,7 +8,7 @@ use crate::plan::Weights;
 use crate::program::{Domain, Program, Value};
 use crate::show::{Precision, sentence};
 
-/// What reaches a case, and what would be reached instead.
+/// Inputs that reach a case, and the cases that others reach instead.
 #[derive(Debug, Clone)]
 pub struct Why {
     /// The case, as an index into [`Program::rows`].
@@ -19,7 +19,7 @@ pub struct Why {
     pub typical: Option<(Arrival, String)>,
     /// Earlier rows that take states in which the guard could hold, with their number.
     pub earlier: Vec<(usize, usize)>,
-    /// What one changed level makes of the smallest input.
+    /// The cases that the smallest input reaches with one level changed.
     pub neighbours: Vec<Neighbour>,
 }
 

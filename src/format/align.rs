@@ -19,7 +19,7 @@ type Stops = Vec<(usize, String)>;
 /// A row that takes part in an alignment.
 struct Row {
     line: usize,
-    /// Whether its only cell is the value of a key.
+    /// True if its only cell is the value of a key.
     keyed: bool,
     stops: Stops,
 }
@@ -61,7 +61,7 @@ impl Piece<'_> {
         if self.token.kind == Kind::Open { pairs[self.pair].parent } else { self.pair }
     }
 
-    /// Whether an item of a pair begins with it.
+    /// Returns whether an item of a pair begins with it.
     fn begins_in(&self, pair: usize, pairs: &[Pair]) -> bool {
         self.begins && self.around(pairs) == pair
     }
@@ -156,7 +156,7 @@ fn columns_of_near(lines: &mut [Line<'_>], group: &[(usize, usize)], near: usize
     }
 }
 
-/// Where the piece before one ends, counted from the start of the line; none after a text of several lines.
+/// The end of the piece before one, counted from the start of the line; none after a text of several lines.
 fn end_before(line: &Line<'_>, piece: usize) -> Option<usize> {
     let mut end = 0;
     for (index, piece) in line.pieces[..piece].iter().enumerate() {
@@ -215,7 +215,7 @@ fn starts_in(line: &Line<'_>, pairs: &[Pair]) -> Option<usize> {
     line.pieces.first().filter(|first| first.begins).map(|first| first.around(pairs))
 }
 
-/// Whether a piece begins a cell whose place the author decides.
+/// Returns whether a piece begins a cell whose place the author decides.
 fn is_cell(line: &Line<'_>, index: usize) -> bool {
     let (before, piece) = (&line.pieces[index - 1], &line.pieces[index]);
     !piece.ruled && !piece.token.is_comment() && matches!(before.token.kind, Kind::Comma | Kind::Colon)

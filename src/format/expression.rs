@@ -7,7 +7,7 @@
 
 use crate::table::lex::{Token, tokens};
 
-/// What a pair of braces or brackets is.
+/// The role of a pair of braces or brackets.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pair {
     /// `( )`, or `{ }` around levels or the fields of a record.
@@ -69,7 +69,7 @@ pub(super) fn lines(text: &str) -> Option<Vec<(usize, String)>> {
     Some(out)
 }
 
-/// Whether a space stands between a token and the one before, inside of a pair of brackets.
+/// Returns whether a space stands between a token and the one before, inside of a pair of brackets.
 fn spaced(tokens: &[(crate::diag::Span, Token<'_>)], index: usize, inside: Option<Pair>) -> bool {
     let token = tokens[index].1;
     let before = tokens[index - 1].1;
@@ -85,7 +85,7 @@ fn spaced(tokens: &[(crate::diag::Span, Token<'_>)], index: usize, inside: Optio
     }
 }
 
-/// Whether the minus at an index stands between two operands.
+/// Returns whether the minus at an index stands between two operands.
 fn is_binary(tokens: &[(crate::diag::Span, Token<'_>)], index: usize) -> bool {
     match index.checked_sub(1).map(|before| tokens[before].1) {
         Some(Token::Number(_) | Token::Symbol(")" | "]" | "}")) => true,
@@ -94,7 +94,7 @@ fn is_binary(tokens: &[(crate::diag::Span, Token<'_>)], index: usize) -> bool {
     }
 }
 
-/// Whether the slash at an index stands between two numbers, as a coefficient of a list.
+/// Returns whether the slash at an index stands between two numbers, as a coefficient of a list.
 fn is_fraction(tokens: &[(crate::diag::Span, Token<'_>)], index: usize, inside: Option<Pair>) -> bool {
     let number = |at: Option<usize>| matches!(at.and_then(|at| tokens.get(at)), Some((_, Token::Number(_))));
     inside == Some(Pair::List) && number(index.checked_sub(1)) && number(index.checked_add(1))

@@ -155,7 +155,7 @@ fn width(text: &str) -> usize {
     text.rsplit('\n').next().map_or(0, |last| last.chars().count())
 }
 
-/// Where a comment stands: as far from the longest line as the nearest of its companions did.
+/// The column of a comment: as far from the longest line as the nearest of its companions stood.
 fn comment_column(paragraph: &[Printed<'_>], comment: &Piece<'_>) -> usize {
     let companions = || {
         paragraph.iter().filter_map(|line| {

@@ -14,19 +14,19 @@ use crate::text::tokens::{Kind, Token, quoted};
 pub(super) struct Piece<'a> {
     /// The token.
     pub(super) token: Token<'a>,
-    /// How it is written.
+    /// Its spelling.
     pub(super) written: Written<'a>,
     /// Blanks in front of it, unless it is the first of its line.
     pub(super) gap: usize,
     /// The pair of brackets that it stands in; of a bracket, what it opens or closes.
     pub(super) pair: usize,
-    /// Whether an item of that pair begins here.
+    /// True if an item of that pair begins here.
     pub(super) begins: bool,
-    /// Whether a rule for columns decides about the gap.
+    /// True if a rule for columns decides about the gap.
     pub(super) ruled: bool,
 }
 
-/// How a token is written.
+/// The spelling of a token.
 #[derive(Debug)]
 pub(super) enum Written<'a> {
     /// As it was, on however many lines.
@@ -67,9 +67,9 @@ const TABLE: usize = 1;
 /// A line.
 #[derive(Debug, Default)]
 pub(super) struct Line<'a> {
-    /// What stands on it; never nothing.
+    /// Its pieces; at least one.
     pub(super) pieces: Vec<Piece<'a>>,
-    /// Whether an empty line stands in front of it.
+    /// True if an empty line stands in front of it.
     pub(super) blank: bool,
 }
 
@@ -180,7 +180,7 @@ fn break_lines(tokens: &mut [Token<'_>]) {
     }
 }
 
-/// Whether a bracket, given what follows it, is the last thing on its line. One
+/// Returns whether a bracket, given what follows it, is the last thing on its line. One
 /// whose items are a list of the table is, as soon as they take more than one line.
 fn opens_block(inside: &[Token<'_>], listed: bool) -> bool {
     let first = inside.iter().position(|token| !token.is_comment()).unwrap_or(0);
@@ -225,14 +225,14 @@ fn with_last_commas<'a>(tokens: Vec<Token<'a>>) -> Vec<Token<'a>> {
     out
 }
 
-/// What is known of the pair of brackets that is being read.
+/// The state of the pair of brackets that is being read.
 struct Frame {
     pair: usize,
-    /// Which item this is, from 0.
+    /// The number of the item, from 0.
     item: usize,
     /// The name or key of the item, and whether it stands in quotes.
     key: Option<(String, bool)>,
-    /// Whether something of the item was read.
+    /// True if something of the item was read.
     begun: bool,
 }
 
@@ -293,7 +293,7 @@ fn expression<'a>(open: &'a str, inner: &str, close: &'a str) -> Option<Written<
     Some(Written::Expression(open, lines, close))
 }
 
-/// Whether a text is meant for readers: no expression.
+/// Returns whether a text is meant for readers: no expression.
 fn is_prose(frame: &Frame, pairs: &[Pair]) -> bool {
     let pair = &pairs[frame.pair];
     let of_readers =
@@ -318,7 +318,7 @@ fn gap(before: Option<&Token<'_>>, token: &Token<'_>) -> usize {
     }
 }
 
-/// Whether a pair is a field of the table itself.
+/// Returns whether a pair is a field of the table itself.
 pub(super) fn is_section(pairs: &[Pair], pair: usize) -> bool {
     pair != OUTSIDE && pairs[pair].parent == TABLE
 }

@@ -53,7 +53,7 @@ impl Workload {
         Ok(workload)
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.rows as usize
     }

@@ -5,7 +5,7 @@ use super::pass::{Bound, Module};
 use crate::diag::Failure;
 use crate::emit::reflect::{Attribute, AttributeKind, Stage};
 
-/// What a render pipeline is made of.
+/// The parts of a render pipeline.
 #[derive(Debug)]
 pub(crate) struct Drawing<'d> {
     /// The vertex shader.
@@ -27,7 +27,7 @@ pub(crate) struct DepthTest {
     pub(crate) format: wgpu::TextureFormat,
     /// When a pixel passes.
     pub(crate) passes: wgpu::CompareFunction,
-    /// Whether pixels that pass are written to the buffer.
+    /// True if pixels that pass are written to the buffer.
     pub(crate) write: bool,
 }
 
@@ -60,7 +60,7 @@ pub(crate) struct DepthBuffer<'c> {
     pub(crate) view: &'c wgpu::TextureView,
     /// Its value before the first draw.
     pub(crate) clear: f32,
-    /// Whether it is needed after the pass.
+    /// True if it is needed after the pass.
     pub(crate) keep: bool,
 }
 

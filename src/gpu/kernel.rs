@@ -51,7 +51,7 @@ pub struct Kernel<'a, 'p> {
     lookup: Option<wgpu::Buffer>,
 }
 
-/// What a kernel returned, row by row.
+/// The results of a kernel, row by row.
 #[derive(Debug, Clone, Default)]
 pub struct Outputs {
     /// The row of the program that was taken; `None` for the default.

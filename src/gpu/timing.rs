@@ -1,4 +1,4 @@
-//! How long things take on a device: a stopwatch for passes, a protocol that
+//! Times on a device: a stopwatch for passes, a protocol that
 //! makes times comparable, and what may be said about their differences.
 //!
 //! ```text
@@ -24,7 +24,7 @@ use std::time::{Duration, Instant};
 use super::Gpu;
 use crate::diag::Failure;
 
-/// What a time was taken with.
+/// The clock that a time was taken with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Clock {
     /// The device's own timestamps at both ends of the pass.
@@ -60,7 +60,7 @@ struct Queries {
 
 const BYTES: u64 = 2 * wgpu::QUERY_SIZE as u64;
 
-/// What a measured pass puts into its descriptor.
+/// The timestamps that a measured pass puts into its descriptor.
 #[derive(Debug)]
 pub(crate) struct Marks<'a> {
     set: Option<&'a wgpu::QuerySet>,
@@ -139,7 +139,7 @@ impl<'g> Stopwatch<'g> {
         Self { gpu, queries: None }
     }
 
-    /// What times are taken with.
+    /// The clock that times are taken with.
     pub fn clock(&self) -> Clock {
         if self.queries.is_some() { Clock::Timestamps } else { Clock::Wall }
     }
@@ -172,7 +172,7 @@ impl<'g> Stopwatch<'g> {
     }
 }
 
-/// How often to measure.
+/// The number of measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Protocol {
     /// Rounds before the first that counts: clocks rise, caches fill, pipelines are compiled.
@@ -220,7 +220,7 @@ impl Times {
         Self { sorted }
     }
 
-    /// How many.
+    /// Their number.
     pub fn count(&self) -> usize {
         self.sorted.len()
     }
@@ -244,13 +244,13 @@ impl Times {
         (self.quantile(0.75) - self.quantile(0.25)) / self.median()
     }
 
-    /// How uncertain the median is, in seconds: about half the width of its 95 %
+    /// The uncertainty of the median, in seconds: about half the width of its 95 %
     /// confidence interval (the notch of a box plot, McGill, Tukey and Larsen 1978).
     pub fn uncertainty(&self) -> f64 {
         1.57 * (self.quantile(0.75) - self.quantile(0.25)) / (self.sorted.len() as f64).sqrt()
     }
 
-    /// Whether two medians differ by more than noise.
+    /// Returns whether two medians differ by more than noise.
     pub fn differs_from(&self, other: &Times) -> bool {
         (self.median() - other.median()).abs() > self.uncertainty() + other.uncertainty()
     }

@@ -23,7 +23,7 @@ const INK: RGBColor = RGBColor(29, 31, 35);
 const SOFT: RGBColor = RGBColor(93, 100, 112);
 const GRID: RGBColor = RGBColor(228, 228, 224);
 
-/// How numbers are spread along an axis.
+/// The spacing of numbers along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Evenly; from zero, if nothing is below it.
@@ -37,13 +37,13 @@ pub enum Scale {
 /// One axis of a plot.
 #[derive(Debug, Clone)]
 pub struct Axis {
-    /// What it shows, with its unit.
+    /// The quantity, with its unit.
     pub label: String,
-    /// How.
+    /// The spacing.
     pub scale: Scale,
 }
 
-/// What stands around the data.
+/// The surroundings of the data.
 #[derive(Debug, Clone)]
 pub struct Frame {
     /// Headline; may be empty.
@@ -59,7 +59,7 @@ pub struct Frame {
 /// Points to be joined by a line.
 #[derive(Debug, Clone)]
 pub struct Series {
-    /// What they are.
+    /// The name in the legend.
     pub name: String,
     /// Ascending in x. What is not finite is left out.
     pub points: Vec<(f64, f64)>,
@@ -68,7 +68,7 @@ pub struct Series {
 /// One bar per category.
 #[derive(Debug, Clone)]
 pub struct Bars {
-    /// What they are.
+    /// The name in the legend.
     pub name: String,
     /// The heights, in the order of the categories. What is not finite is left out.
     pub values: Vec<f64>,
@@ -182,7 +182,7 @@ pub fn bars(frame: &Frame, categories: &[String], series: &[Bars]) -> String {
     finish(draw(&mut svg), svg, frame)
 }
 
-/// What was drawn. Drawing into memory fails only on a frame without room for its axes.
+/// The drawing. Drawing into memory fails only on a frame without room for its axes.
 fn finish(drawn: Result<(), Box<dyn std::error::Error>>, svg: String, frame: &Frame) -> String {
     match drawn {
         Ok(()) => visible(&svg).into_owned(),
@@ -285,7 +285,7 @@ impl Ticks {
         ticks
     }
 
-    /// Where a number is drawn.
+    /// The place of a number.
     fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {
             Scale::Linear => value,

@@ -73,7 +73,7 @@ pub fn coloured(picture: &RgbImage, legend: &Legend) -> Result<RgbImage, Failure
 /// One picture of a contact sheet.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// What stands above it.
+    /// The text above it.
     pub label: String,
     /// The whole picture.
     pub picture: RgbImage,

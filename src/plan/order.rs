@@ -114,7 +114,7 @@ impl Tests {
         order
     }
 
-    /// What the tests cost in the order of their weights, from place 1 on.
+    /// The cost of the tests in the order of their weights, from place 1 on.
     fn relaxed(&self, is_in: impl Fn(usize) -> bool) -> f64 {
         let mut weights: Vec<f64> = (0..self.weights.len()).filter(|t| is_in(*t)).map(|t| self.weights[t]).collect();
         weights.sort_by(|a, b| b.total_cmp(a));
@@ -214,7 +214,7 @@ impl<'t> Search<'t> {
         }
     }
 
-    /// What a beginning costs at least when it is completed, all other tests in the order of their weights.
+    /// The least cost of a beginning when it is completed, all other tests in the order of their weights.
     fn at_least(&self, front: u64, cost: f64, placed: usize) -> f64 {
         let rest = self.sorted.iter().filter(|test| front >> **test & 1 == 0);
         let rest: f64 = rest.zip(placed + 1..).map(|(test, place)| self.tests.weights[*test] * place as f64).sum();

@@ -12,7 +12,7 @@ pub const TILE: (u32, u32) = (8, 4);
 /// Most sets of states that are listed; those of common scenes are some hundred.
 const MAX_SETS: usize = 4096;
 
-/// What was evaluated at the pixels of a picture.
+/// The evaluations at the pixels of a picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<'a> {
     /// Pixels per row.

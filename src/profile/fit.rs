@@ -20,7 +20,7 @@ use crate::program::{Assumption, Domain, Program, Value, can_occur, reachable};
 pub struct Fitted {
     /// The profile, of this table.
     pub profile: Profile,
-    /// What was lost on the way, if the table has changed.
+    /// The loss on the way, if the table has changed.
     pub warning: Option<Diagnostic>,
 }
 
@@ -31,7 +31,7 @@ pub struct Excluded {
     pub scene: String,
     /// The state, in words.
     pub state: String,
-    /// How often it occurs.
+    /// The number of its evaluations.
     pub count: u64,
     /// The assumption that it contradicts; `None` if they only do together.
     pub assumption: Option<String>,

@@ -27,7 +27,7 @@ pub use file::{read, to_ron};
 pub use fit::{Excluded, Fitted, fit};
 pub use summary::{Change, Frequency, changes, frequencies, shares, total_variation};
 
-/// How often the states of a table occur.
+/// The frequencies of a table's states.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// Name of the table.
@@ -49,7 +49,7 @@ pub struct StateInput {
     pub levels: Vec<String>,
 }
 
-/// What one scene contributes.
+/// The counts of one scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Its name.
@@ -58,17 +58,17 @@ pub struct Scene {
     pub technique: String,
     /// Sizes and whatever else one would need to count again; for people.
     pub setting: String,
-    /// What a count of this scene weighs.
+    /// The weight of a count of this scene.
     pub weight: f64,
     /// Evaluations by state. States that do not occur are left out.
     pub states: BTreeMap<usize, u64>,
     /// Evaluations by case; `None` is the default.
     pub cases: BTreeMap<Option<u32>, u64>,
-    /// What threads that run together have to do.
+    /// The states that threads in step meet together.
     pub tiles: Option<Tiles>,
 }
 
-/// Which states occur together in a tile of pixels, as large as the group of
+/// The states that occur together in a tile of pixels, as large as the group of
 /// threads that runs in step. The group pays for every path that one of its
 /// threads takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -77,7 +77,7 @@ pub struct Tiles {
     pub width: u32,
     /// Rows of a tile.
     pub height: u32,
-    /// How often each set of states occurred. The states of a set ascend.
+    /// The number of tiles with each set of states. The states of a set ascend.
     pub sets: BTreeMap<Vec<usize>, u64>,
     /// Tiles whose sets are too rare to be listed.
     pub others: u64,
@@ -128,7 +128,7 @@ impl Profile {
         }
     }
 
-    /// How many states there are, if they are not too many.
+    /// The number of states, if they are not too many.
     fn state_count(&self) -> Option<usize> {
         let product = self.inputs.iter().try_fold(1_u64, |all, input| all.checked_mul(input.levels.len() as u64));
         product.filter(|count| (1..=StateSpace::MAX).contains(count)).map(|count| count as usize)
@@ -179,7 +179,7 @@ impl Profile {
 }
 
 impl Tiles {
-    /// How many different states a tile has on average: 1 where neighbours agree, more where they diverge.
+    /// The mean number of different states in a tile: 1 where neighbours agree, more where they diverge.
     pub fn mean_states(&self) -> f64 {
         let tiles: f64 = self.sets.values().map(|count| *count as f64).sum();
         let states: f64 = self.sets.iter().map(|(set, count)| set.len() as f64 * *count as f64).sum();

@@ -1,11 +1,11 @@
-//! What a profile says, in few numbers: frequencies of cases, and what changed.
+//! Profiles in few numbers: frequencies of cases, and their changes.
 
 use std::collections::BTreeSet;
 
 use super::Profile;
 use crate::program::Program;
 
-/// How frequent a case is.
+/// The frequency of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frequency {
     /// The case; `None` is the default.
@@ -39,7 +39,7 @@ pub fn frequencies(profile: &Profile) -> Vec<Frequency> {
     cases.into_iter().chain(default).map(of).collect()
 }
 
-/// How often each row of a program is taken, as a share of all evaluations.
+/// The share of all evaluations that takes each row of a program.
 pub fn shares(profile: &Profile, program: &Program) -> Vec<f64> {
     let found = frequencies(profile);
     let of = |id: u32| found.iter().find(|frequency| frequency.case == Some(id)).map_or(0.0, |f| f.share);
@@ -50,7 +50,7 @@ fn ratio(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { 0.0 }
 }
 
-/// How a case's share differs between two profiles.
+/// The share of a case in two profiles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Change {
     /// The case; `None` is the default.
@@ -71,7 +71,7 @@ pub fn changes(before: &Profile, after: &Profile) -> Vec<Change> {
     cases.into_iter().map(change).collect()
 }
 
-/// How far the states of two profiles are distributed differently: the share of
+/// The distance between the distributions of states of two profiles: the share of
 /// evaluations that would have to be others, 0 to 1. `None` if the inputs differ.
 pub fn total_variation(a: &Profile, b: &Profile) -> Option<f64> {
     if a.inputs != b.inputs {

@@ -1,4 +1,4 @@
-//! Which rows can be taken in which states, without looking at every row in
+//! Finds the rows that can be taken in each state, without looking at every row in
 //! every state: the levels that a guard asks for span a box of states, and only
 //! inside of it the guard is looked at.
 
@@ -12,7 +12,7 @@ const MAX_CLAIMS: usize = 1 << 24;
 pub(crate) struct Claim {
     /// The row.
     pub(crate) row: usize,
-    /// Whether its guard holds there whatever the other inputs are.
+    /// True if its guard holds there whatever the other inputs are.
     pub(crate) always: bool,
 }
 
@@ -77,7 +77,7 @@ pub(crate) struct Candidates {
     rows: usize,
 }
 
-/// How many of the rows that claim a state, and of those that fetch, were looked at.
+/// The numbers of rows that claim a state, and of those that fetch, that were looked at.
 #[derive(Default)]
 pub(crate) struct Places {
     claimed: usize,
@@ -188,7 +188,7 @@ impl<'p> Boxes<'p> {
         self.program.states.digits().iter().position(|(digit, _)| *digit == input)
     }
 
-    /// How many states [`Self::each`] would look at.
+    /// The number of states that [`Self::each`] would look at.
     pub(crate) fn size(&self, pool: &Pool, condition: CondId) -> usize {
         self.hull(pool, condition).map_or(0, |hull| hull.iter().map(|levels| levels.0.count_ones() as usize).product())
     }
@@ -226,7 +226,7 @@ impl<'p> Boxes<'p> {
     }
 }
 
-/// Whether a condition holds in a state; `None` if that depends on other inputs.
+/// Decides a condition in a state; `None` if that depends on other inputs.
 pub(crate) fn decide(program: &Program, pool: &Pool, condition: CondId, levels: &[u8]) -> Option<bool> {
     match pool.cond(condition) {
         Cond::Const(value) => Some(*value),

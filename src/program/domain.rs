@@ -15,13 +15,13 @@ pub struct Input {
     pub ident: String,
     /// The values it can take.
     pub domain: Domain,
-    /// What it is.
+    /// Its description.
     pub doc: String,
     /// Cost in texture reads, for inputs that the host produces on demand.
     pub fetched: Option<f64>,
     /// The value that examples and `explain` assume when they leave the input out.
     pub default: Option<Value>,
-    /// Where it is declared.
+    /// The place of its declaration.
     pub span: Span,
 }
 
@@ -48,11 +48,11 @@ pub struct Levels {
     pub names: Vec<String>,
     /// The numbers that stand for them where levels are carried as `f32`.
     pub codes: Vec<f64>,
-    /// What kind of input they belong to.
+    /// The kind of input that they belong to.
     pub kind: LevelKind,
 }
 
-/// What kind of discrete input it is.
+/// The kind of a discrete input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LevelKind {
     /// Named levels.
@@ -64,7 +64,7 @@ pub enum LevelKind {
 }
 
 impl Levels {
-    /// How many there are.
+    /// The number of levels.
     pub fn count(&self) -> usize {
         self.names.len()
     }
@@ -131,7 +131,7 @@ impl StateSpace {
         Ok(Self { digits, count: product as usize })
     }
 
-    /// How many states there are; at least one.
+    /// The number of states; at least one.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -157,7 +157,7 @@ impl StateSpace {
 }
 
 impl Input {
-    /// What code finds where the input is not fetched: the least number, or the number of the first level.
+    /// The value in place of an input that is not fetched: the least number, or the number of the first level.
     pub fn least(&self) -> f64 {
         match self.domain {
             Domain::Continuous { lo, .. } => lo,

@@ -1,9 +1,9 @@
-//! How inputs are drawn: hints for pictures, names resolved. No meaning.
+//! Hints for pictures of inputs, names resolved. No meaning.
 
 use super::{InputId, LevelSet};
 use crate::table::draw::Side;
 
-/// How one input is drawn.
+/// The drawing of one input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Draw {
     /// A position in the cell, from its left to its right border.

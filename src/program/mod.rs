@@ -74,13 +74,13 @@ pub struct Program {
     pub imported: Vec<Arc<Source>>,
     /// Name, and prefix of everything generated.
     pub name: String,
-    /// What the table is.
+    /// The title of the table.
     pub title: String,
-    /// Where the technique was published.
+    /// The publication of the technique.
     pub origin: String,
-    /// What it means that several rows match.
+    /// The meaning of several rows that match.
     pub hit_policy: HitPolicy,
-    /// Where the hit policy is declared.
+    /// The place of the hit policy.
     pub hit_policy_span: Span,
     /// The inputs.
     pub inputs: Vec<Input>,
@@ -94,29 +94,29 @@ pub struct Program {
     pub rows: Vec<Row>,
     /// The result where no row, or no line of the taken row, applies.
     pub default: Vec<ExprId>,
-    /// What the table returns.
+    /// The kind of its result.
     pub output: Output,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
-    /// How inputs are drawn.
+    /// The drawing hints of inputs.
     pub draw: Vec<(InputId, draw::Draw)>,
     /// Declared symmetries.
     pub symmetries: Vec<Symmetry>,
     /// Inputs with expected results.
     pub examples: Vec<Example>,
-    /// What is said of it, if it is a function of a table.
+    /// Its declaration, if it is a function of a table.
     pub function: Option<Function>,
-    /// Where the value is meant to have no jumps.
+    /// The places where the value is meant to have no jumps.
     pub continuity: Vec<Continuity>,
     /// Findings about the table as a whole that are known and stay.
     pub allow: Vec<Allow>,
     /// Set for a table that is kept to be looked at, mistakes included, with the reason.
     pub exhibit: Option<String>,
-    /// What the table says that this does not keep.
+    /// The parts of the table that this does not keep.
     pub written: Written,
 }
 
-/// What is only in how a table is written.
+/// Parts of a table that are in its text only.
 #[derive(Debug, Clone, Default)]
 pub struct Written {
     /// Names that nothing leads to.
@@ -127,7 +127,7 @@ pub struct Written {
     pub inexact: Vec<(f64, Span)>,
 }
 
-/// What is said of a program that is a function of a table. The conditions of
+/// The declaration of a program that is a function of a table. The conditions of
 /// its domain stand among [`Program::assumptions`].
 #[derive(Debug, Clone)]
 pub struct Function {
@@ -135,26 +135,26 @@ pub struct Function {
     pub table: String,
     /// Name of the function in the table.
     pub name: String,
-    /// Where the function is declared.
+    /// The place of its declaration.
     pub span: Span,
-    /// What it is claimed to be at particular places.
+    /// The claims on its values at particular places.
     pub limits: Vec<Limit>,
-    /// How accurate it is claimed to be.
+    /// The claim on its accuracy.
     pub accuracy: Option<Accuracy>,
 }
 
-/// What a function is claimed to be at particular places.
+/// A claim on the value of a function at particular places.
 #[derive(Debug, Clone)]
 pub struct Limit {
     /// The claim.
     pub span: Span,
     /// The inputs that are fixed, and at what.
     pub at: Vec<(InputId, f64)>,
-    /// What the components are there.
+    /// The components there.
     pub values: Vec<ExprId>,
 }
 
-/// How accurate a function is claimed to be in `f32`: the error is at most
+/// A claim on the accuracy of a function in `f32`: the error is at most
 /// `times` the sum of what half a unit in the last place of each input can
 /// change and of half a unit in the last place of 1 times `scale`.
 #[derive(Debug, Clone)]
@@ -167,7 +167,7 @@ pub struct Accuracy {
     pub span: Span,
 }
 
-/// What a table returns: one number per component.
+/// The kind of a table's result: one number per component.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Output {
     /// One number.
@@ -188,7 +188,7 @@ pub enum Output {
 }
 
 impl Output {
-    /// How many components there are.
+    /// The number of components.
     pub fn components(&self) -> usize {
         match self {
             Output::Number | Output::Enumeration(_) => 1,
@@ -198,7 +198,7 @@ impl Output {
         }
     }
 
-    /// Whether components are whole numbers rather than reals.
+    /// Returns whether components are whole numbers rather than reals.
     pub fn is_integer(&self) -> bool {
         matches!(self, Output::Enumeration(_) | Output::List { .. })
     }
@@ -209,11 +209,11 @@ impl Output {
 pub struct Row {
     /// The number of the case.
     pub id: u32,
-    /// Where the row stands.
+    /// The place of the row.
     pub span: Span,
     /// When it is taken.
     pub guard: CondId,
-    /// Where the guard stands.
+    /// The place of the guard.
     pub guard_span: Span,
     /// Its value.
     pub lines: Vec<Line>,
@@ -232,11 +232,11 @@ pub struct Row {
 pub struct Line {
     /// When it applies.
     pub condition: CondId,
-    /// Where the condition stands; `None` if it has none.
+    /// The place of the condition; `None` if it has none.
     pub condition_span: Option<Span>,
     /// The result, one expression per component.
     pub values: Vec<ExprId>,
-    /// Where the value stands.
+    /// The place of the value.
     pub span: Span,
 }
 
@@ -249,7 +249,7 @@ pub struct Assumption {
     pub condition: CondId,
     /// Why it holds.
     pub doc: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
@@ -258,7 +258,7 @@ pub struct Assumption {
 pub struct Symmetry {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its description.
     pub doc: String,
     /// Discrete inputs that change, with their new levels.
     pub levels: Vec<(InputId, LevelTerm)>,
@@ -266,24 +266,24 @@ pub struct Symmetry {
     pub numbers: Vec<(InputId, ExprId)>,
     /// The result in terms of [`Node::Result`], if it changes.
     pub result: Option<ExprId>,
-    /// Where it is declared.
+    /// The place of its declaration.
     pub span: Span,
 }
 
-/// Where the value is meant to have no jumps.
+/// The places where the value is meant to have no jumps.
 #[derive(Debug, Clone)]
 pub struct Continuity {
-    /// What it is called and what the inputs are on the other side; the result
+    /// Its name, and the inputs on the other side; the result
     /// is the same there. Nothing is mapped for a switch.
     pub map: Symmetry,
-    /// Which places.
+    /// The kind of the places.
     pub kind: ContinuityKind,
 }
 
 /// Places at which the value is meant to have no jumps.
 #[derive(Debug, Clone)]
 pub enum ContinuityKind {
-    /// Where the condition holds, the point touches its image; these inputs can be anything there.
+    /// The condition under which a point touches its image; these inputs can be anything there.
     Border(CondId, Vec<InputId>),
     /// Wherever a comparison that involves one of these inputs changes its outcome.
     Switch(Vec<InputId>),
@@ -294,7 +294,7 @@ pub enum ContinuityKind {
 pub struct Example {
     /// The row it belongs to, as an index into [`Program::rows`].
     pub row: usize,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// One value per input; `None` for fetched inputs that must not be needed.
     pub inputs: Vec<Option<Value>>,

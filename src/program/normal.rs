@@ -19,7 +19,7 @@ const MAX_FORMS: usize = 256;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct NormalId(u32);
 
-/// What an affine form is linear in.
+/// The atoms that an affine form is linear in.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) enum Term {
     Input(InputId),
@@ -59,7 +59,7 @@ impl Normaliser {
         result
     }
 
-    /// What a normal form is.
+    /// The lattice that a normal form is.
     pub(crate) fn lattice_of(&self, id: NormalId) -> &Lattice {
         &self.forms[id.0 as usize]
     }
@@ -232,7 +232,7 @@ impl Affine {
         Some(Affine { terms: terms.collect::<Option<_>>()?, constant: self.constant.times(factor)? })
     }
 
-    /// Whether this is at least `other` everywhere: same terms, no smaller constant.
+    /// Returns whether this is at least `other` everywhere: same terms, no smaller constant.
     fn dominates(&self, other: &Affine) -> bool {
         self.terms == other.terms && self.constant >= other.constant
     }

@@ -75,7 +75,7 @@ impl LevelSet {
         Self(1 << level)
     }
 
-    /// Whether `level` is in the set.
+    /// Returns whether `level` is in the set.
     pub fn contains(self, level: u8) -> bool {
         self.0 >> level & 1 == 1
     }
@@ -132,7 +132,7 @@ impl InputSet {
         Self(1 << input.index())
     }
 
-    /// Whether `input` is in the set.
+    /// Returns whether `input` is in the set.
     pub fn contains(self, input: InputId) -> bool {
         self.0 >> input.index() & 1 == 1
     }
@@ -152,7 +152,7 @@ impl InputSet {
         Self(self.0 & !other.0)
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub fn is_empty(self) -> bool {
         self.0 == 0
     }
@@ -168,7 +168,7 @@ impl InputSet {
     }
 }
 
-/// What is known of a term without looking inside.
+/// Facts about a term that need no look inside.
 #[derive(Debug, Clone, Copy)]
 pub struct Facts {
     /// Longest path to a leaf.
@@ -177,7 +177,7 @@ pub struct Facts {
     pub size: u32,
     /// Every input that is mentioned.
     pub inputs: InputSet,
-    /// Whether there is a selection anywhere in it.
+    /// True if there is a selection anywhere in it.
     pub selects: bool,
 }
 
@@ -207,12 +207,12 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// What an expression is.
+    /// The node of an expression.
     pub fn node(&self, id: ExprId) -> Node {
         self.exprs[id.0 as usize].0
     }
 
-    /// What a condition is.
+    /// The form of a condition.
     pub fn cond(&self, id: CondId) -> &Cond {
         &self.conds[id.0 as usize].0
     }
@@ -227,7 +227,7 @@ impl Pool {
         self.conds[id.0 as usize].1
     }
 
-    /// Whether a condition compares numbers.
+    /// Returns whether a condition compares numbers.
     pub fn compares(&self, id: CondId) -> bool {
         let cond = self.cond(id);
         matches!(cond, Cond::Compare(..)) || cond.children().any(|part| self.compares(part))
@@ -238,7 +238,7 @@ impl Pool {
         self.labels.get(&id).map(String::as_str)
     }
 
-    /// How many expressions there are.
+    /// The number of expressions.
     pub fn len(&self) -> usize {
         self.exprs.len()
     }
@@ -248,7 +248,7 @@ impl Pool {
         self.exprs.iter().map(|(_, facts)| facts.size).max().unwrap_or(0)
     }
 
-    /// Whether there is no expression.
+    /// Returns whether there is no expression.
     pub fn is_empty(&self) -> bool {
         self.exprs.is_empty()
     }
@@ -331,7 +331,7 @@ impl Pool {
         self.intern(Node::Result)
     }
 
-    /// Whether an operation can be folded once its operands are known, without a
+    /// Returns whether an operation can be folded once its operands are known, without a
     /// trace in the result: the folded constant, rounded to `f32`, must be what
     /// the operation gives in `f32`, and it must not be one that shading
     /// languages refuse. Folding is free in a table as written, where it is part

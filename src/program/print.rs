@@ -11,9 +11,9 @@ const MAX_LENGTH: usize = 4_000;
 /// Prints terms of one pool.
 #[derive(Clone, Copy)]
 pub struct Printer<'a> {
-    /// Where the terms live.
+    /// The pool of the terms.
     pub pool: &'a Pool,
-    /// What the inputs are called.
+    /// The inputs, for their names.
     pub inputs: &'a [Input],
 }
 

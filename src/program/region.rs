@@ -15,7 +15,7 @@ use super::{Domain, InputId, Program};
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
 const MAX_CONSTRAINTS: usize = 512;
 
-/// Which sign a form has.
+/// The sign of a form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sign {
     Positive,
@@ -51,7 +51,7 @@ struct Constraint {
     strict: bool,
 }
 
-/// Whether the forms can have these signs at one point of the program's domain.
+/// Returns whether the forms can have these signs at one point of the program's domain.
 pub(crate) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> bool {
     feasible(program, signs, &mut Vec::new()).unwrap_or(true)
 }
@@ -166,12 +166,12 @@ fn feasible<'a>(
 }
 
 impl Constraint {
-    /// Whether this constraint, which has no variable left, does not hold.
+    /// Returns whether this constraint, which has no variable left, does not hold.
     fn violated(&self) -> bool {
         self.form.constant.is_negative() || self.strict && self.form.constant.is_zero()
     }
 
-    /// What two constraints that bound a variable from either side say without it.
+    /// The consequence, without the variable, of two constraints that bound it from either side.
     fn without(&self, variable: &Term, other: &Self) -> Option<Self> {
         let (a, b) = (self.form.terms[variable], other.form.terms[variable].abs());
         debug_assert!(a.times(b).is_none_or(|product| product.is_positive()));

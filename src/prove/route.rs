@@ -1,4 +1,4 @@
-//! Where the paths of each state begin: behind the tests that the state alone decides.
+//! The beginnings of the paths of each state: behind the tests that the state alone decides.
 //!
 //! All states go through the plan together. A test costs no more than the
 //! states it takes away, so ten thousand tests over ten thousand states do not

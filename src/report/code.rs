@@ -11,7 +11,7 @@ use crate::program::Program;
 /// The plan whose code is shown in every language, and the language shown of every plan.
 const SHOWN: (Shape, Target) = (Shape::Ladder, Target::Wgsl);
 
-/// Where a row's code begins, in the plan and language that are shown first.
+/// The anchor of a row's code, in the plan and language that are shown first.
 pub(super) fn anchor(id: u32) -> String {
     format!("{}.{}-{id}", SHOWN.0, SHOWN.1.name())
 }

@@ -19,10 +19,10 @@ use crate::program::{Domain, Program};
 use crate::table::HitPolicy;
 use crate::tuned::Choice;
 
-/// What is known about a table beyond its text.
+/// Knowledge about a table beyond its text.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Known<'a> {
-    /// How often its states occur.
+    /// The frequencies of its states.
     pub profile: Option<&'a Profile>,
     /// The device it was tuned on, and what was chosen.
     pub tuned: Option<(&'a str, &'a Choice)>,

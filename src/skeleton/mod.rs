@@ -59,7 +59,7 @@ pub enum Reads {
 pub struct Revectorised {
     /// The reads of the map. The case-free shader reads single texels.
     pub reads: Reads,
-    /// Whether it reads which discontinuity dominates at corners, and so takes the very case of the
+    /// True if it reads which discontinuity dominates at corners, and so takes the very case of the
     /// table. Otherwise both are said to dominate, which is another case of the same value.
     pub dominance: bool,
 }

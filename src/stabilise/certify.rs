@@ -1,4 +1,4 @@
-//! What a formula reaches in `f32`, measured against hundreds of bits.
+//! The accuracy of a formula in `f32`, measured against hundreds of bits.
 //!
 //! The reference is the *original* formula, evaluated beside each point so that
 //! its removable singularities have their limits ([`Precise::limit`]); nothing
@@ -52,12 +52,12 @@ pub struct Certificate {
     pub after: Measured,
     /// Largest error that WGSL admits of the new form at these points, in the same units; without one, the reason.
     pub admitted: Result<f64, String>,
-    /// What was declared to be allowed, in the same units.
+    /// The declared allowance, in the same units.
     pub claimed: Option<f64>,
 }
 
 impl Certificate {
-    /// Whether the new form is as accurate as declared; without a claim, whether it is finite.
+    /// Returns whether the new form is as accurate as declared; without a claim, whether it is finite.
     pub fn is_met(&self) -> bool {
         self.after.not_finite == 0 && self.claimed.is_none_or(|claimed| self.after.units <= claimed)
     }
@@ -217,7 +217,7 @@ fn admissible(
     Ok(worst)
 }
 
-/// What half a unit in the last place of each input can change, summed, and half a unit of the scale: the
+/// The changes by half a unit in the last place of each input, summed, and half a unit of the scale: the
 /// declared one, or else the value. The changes are those of the new form in `f64`, whose own error is 2^-29 of
 /// what matters here.
 fn allowed(old: &Program, new: &Program, judge: &mut Precise<'_>, point: &[Value], exact: &[f64]) -> Vec<f64> {

@@ -25,7 +25,7 @@ use crate::program::rational::Rational;
 /// Numbers of nodes.
 const RULES: [usize; 3] = [4, 8, 16];
 
-/// What may be left out, relative to the amplitude.
+/// The part that may be left out, relative to the amplitude.
 const LEFT_OUT: f64 = 1.0 / 16_777_216.0;
 
 /// Name of the list of nodes and weights.
@@ -112,7 +112,7 @@ pub(super) fn helper(name: &str, density: &Density, names: &Names, indent: &str)
     )
 }
 
-/// What a density is a function of, its variable first.
+/// The parameters of a density, its variable first.
 fn parameters(density: &Density, names: &Names) -> Vec<String> {
     let mut all = vec![names.variable.clone()];
     for sum in [&density.sum, &density.difference, &density.value] {

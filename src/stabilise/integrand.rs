@@ -1,4 +1,4 @@
-//! What a function integrates, read from its closed form.
+//! The integrand of a function, read from its closed form.
 //!
 //! `F | x = lo .. hi` is the integral of the derivative of F. Functions that add
 //! multiples of such integrals between the same bounds integrate the sum of the

@@ -55,7 +55,7 @@ pub(super) struct Kernels(pub(super) Vec<Kernel>);
 /// A quantity that kernels are functions of.
 #[derive(Debug, Clone)]
 pub(super) struct Argument {
-    /// What it is.
+    /// Its value.
     pub(super) value: Poly,
     /// The name it is given, unless it is a variable already.
     pub(super) name: String,
@@ -200,7 +200,7 @@ fn group(mut terms: Vec<Term>, argument: &Argument, kernels: &mut Kernels) -> Op
     product.times(&Poly::fun(&name, variable))
 }
 
-/// How powers of an argument show in a monomial.
+/// The form in which powers of an argument show in a monomial.
 enum Pivot {
     /// The argument is this variable.
     Variable(Atom),

@@ -49,13 +49,13 @@ pub use certify::{Certificate, Measured};
 pub struct Stabilised {
     /// Its text.
     pub text: String,
-    /// What became of each function, in the order written.
+    /// The outcome of each function, in the order written.
     pub functions: Vec<(String, Outcome)>,
     /// Names of the functions of one variable that were added.
     pub kernels: Vec<String>,
 }
 
-/// What became of a function.
+/// The outcome of a function.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Outcome {
     /// It has a new formula.
@@ -120,7 +120,7 @@ pub fn stabilise(table: &Table) -> Result<Stabilised, Failure> {
     Ok(Stabilised { text, functions, kernels: added.kernels.0.into_iter().map(|kernel| kernel.name).collect() })
 }
 
-/// What the new table has besides new formulas.
+/// The additions to the new table besides new formulas.
 #[derive(Debug, Default)]
 struct Added {
     kernels: Kernels,
@@ -142,7 +142,7 @@ impl Formula {
     }
 }
 
-/// Which functions subtract one side from another.
+/// The functions that subtract one side from another.
 struct Sides<'t> {
     table: &'t Table,
     subtract: BTreeSet<&'t str>,
@@ -154,7 +154,7 @@ impl<'t> Sides<'t> {
         Self { table, subtract: table.functions.iter().filter(subtracts).map(|f| f.name.value.as_str()).collect() }
     }
 
-    /// Whether a function is the innermost one that does: what calls it gains from it.
+    /// Returns whether a function is the innermost one that does: what calls it gains from it.
     fn take(&self, function: &Function) -> bool {
         self.subtract.contains(function.name.value.as_str()) && !self.inside(function)
     }
@@ -167,7 +167,7 @@ impl<'t> Sides<'t> {
     }
 }
 
-/// What a function integrates, if that is one side less another.
+/// The integrand of a function that is one side less another.
 fn density(table: &Table, function: &Function, kernels: &mut Kernels) -> Option<(Density, Names, Bounds)> {
     let names = Names {
         variable: free(table, &["x", "at", "along"]),

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use crate::program::rational::Rational;
 
-/// What a monomial is a product of.
+/// A factor of a monomial.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Atom {
     /// A parameter, a local, or a call that is kept as it is written.
@@ -222,7 +222,7 @@ impl Poly {
         }
     }
 
-    /// Whether a variable occurs anywhere.
+    /// Returns whether a variable occurs anywhere.
     pub(super) fn mentions(&self, name: &str) -> bool {
         self.0.keys().any(|mono| mono.keys().any(|atom| atom.mentions(name)))
     }

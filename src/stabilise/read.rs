@@ -14,7 +14,7 @@ use crate::table::{ConstantValue, Function, FunctionBody, Table};
 /// Deepest nesting of calls that are written out.
 const MAX_DEPTH: usize = 64;
 
-/// What names mean.
+/// The meaning of names.
 pub(super) type Env = BTreeMap<String, Poly>;
 
 /// A pair of bounds: `mid` and `half` are names of the mean and of half the difference.
@@ -32,7 +32,7 @@ pub(super) struct Reader<'t> {
     /// The bounds met so far.
     pub(super) bounds: Vec<Bounds>,
     depth: usize,
-    /// Whether differences between bounds are read as integrals; see [`super::integrand`].
+    /// True if differences between bounds are read as integrals; see [`super::integrand`].
     pub(super) integrands: bool,
 }
 
@@ -251,7 +251,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// Whether a function itself, and not only what it calls, divides by more than a number or takes a
+/// Returns whether a function itself, and not only what it calls, divides by more than a number or takes a
 /// difference between bounds.
 pub(super) fn is_singular(table: &Table, function: &Function) -> bool {
     let FunctionBody::Value(value) = &function.body else { return false };
@@ -294,7 +294,7 @@ pub(super) fn is_singular(table: &Table, function: &Function) -> bool {
     false
 }
 
-/// Whether an expression is a number without any name in it.
+/// Returns whether an expression is a number without any name in it.
 fn is_number(expr: &Expr) -> bool {
     match &expr.kind {
         ExprKind::Number(_) => true,

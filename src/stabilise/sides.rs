@@ -25,7 +25,7 @@ use crate::program::rational::Rational;
 /// Largest multiple of an angle that is written out.
 const MOST: i128 = 8;
 
-/// What is integrated along a variable, in a form that does not cancel.
+/// The integrand along a variable, in a form that does not cancel.
 #[derive(Debug, Clone)]
 pub(super) struct Density {
     /// In terms of [`Names::sum`] and [`Names::difference`].
@@ -38,7 +38,7 @@ pub(super) struct Density {
     pub(super) speed: BTreeMap<Mono, Rational>,
 }
 
-/// What is called what.
+/// The names of the parts.
 #[derive(Debug, Clone)]
 pub(super) struct Names {
     /// The variable.
@@ -139,7 +139,7 @@ fn kernels_of(sum: &Poly, difference: &str, kernels: &mut Kernels) -> Option<Pol
     if tamed.0.keys().any(left) { None } else { tamed.plus(&Poly(without)) }
 }
 
-/// How fast the sines and cosines of a sum turn together along a variable, term by term the most.
+/// The speed at which the sines and cosines of a sum turn together along a variable, term by term the most.
 fn speed(f: &Poly, variable: &str) -> Option<BTreeMap<Mono, Rational>> {
     let mut all: BTreeMap<Mono, Rational> = BTreeMap::new();
     for mono in f.0.keys() {

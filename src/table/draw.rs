@@ -1,4 +1,4 @@
-//! How inputs are drawn, as written: hints for pictures of a table.
+//! Hints for pictures of a table's inputs, as written.
 //!
 //! A picture shows one cell with its four neighbours. Hints say which input is
 //! a position in the cell, which has to do with its sides, and so on. They have
@@ -20,7 +20,7 @@ pub enum Side {
     Bottom,
 }
 
-/// How one input is drawn.
+/// The drawing of one input.
 #[derive(Debug, Clone)]
 pub enum Draw {
     /// The number is a position in the cell, from its left to its right border.
@@ -45,7 +45,7 @@ pub enum Draw {
     },
     /// The number is a position in the run that this input is drawn as.
     Position(Spanned<String>),
-    /// Where the condition holds, the marks of this input are drawn strongly.
+    /// The condition under which the marks of this input are drawn strongly.
     Strong(Spanned<String>),
 }
 

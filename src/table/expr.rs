@@ -6,9 +6,9 @@ use crate::diag::{Span, Spanned};
 /// An expression with its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expr {
-    /// Where it stands in the table's source.
+    /// Its place in the table's source.
     pub span: Span,
-    /// What it is.
+    /// Its kind.
     pub kind: ExprKind,
 }
 
@@ -95,7 +95,7 @@ impl Expr {
     }
 }
 
-/// What a sum runs over.
+/// The range of a sum.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SumOver {
     /// The items of a list of constants.

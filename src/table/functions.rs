@@ -25,13 +25,13 @@ pub struct Function {
     pub parameters: Vec<Spanned<String>>,
     /// Values that it names, each evaluated once.
     pub bindings: Vec<Named>,
-    /// What it returns.
+    /// Its body.
     pub body: FunctionBody,
     /// Conditions on its parameters; outside of them it is not meant to be used.
     pub domain: Vec<Assumption>,
-    /// What it is claimed to be at particular places.
+    /// The claims on its values at particular places.
     pub limits: Vec<Limit>,
-    /// How accurate it is claimed to be.
+    /// The claim on its accuracy.
     pub accuracy: Option<Accuracy>,
     /// Misprints of the source that were mended here, or that are kept.
     pub errata: Vec<Erratum>,
@@ -39,7 +39,7 @@ pub struct Function {
     pub examples: Vec<Example>,
 }
 
-/// What a function returns.
+/// The body of a function.
 #[derive(Debug, Clone)]
 pub enum FunctionBody {
     /// One expression.
@@ -58,13 +58,13 @@ pub enum FunctionBody {
 pub struct Helper {
     /// Its name.
     pub name: Spanned<String>,
-    /// What it calls its arguments.
+    /// The names of its arguments.
     pub parameters: Vec<Spanned<String>>,
     /// The lines of its value, of which the first that applies counts; the last one always applies.
     pub lines: Vec<Line>,
 }
 
-/// What a function is claimed to be at particular places.
+/// A claim on the value of a function at particular places.
 #[derive(Debug, Clone)]
 pub struct Limit {
     /// The whole claim.
@@ -75,7 +75,7 @@ pub struct Limit {
     pub value: Expr,
 }
 
-/// How accurate a function is claimed to be in `f32`: the error is at most
+/// A claim on the accuracy of a function in `f32`: the error is at most
 /// `times` what half a unit in the last place of each parameter can change,
 /// and half a unit in the last place of `scale`.
 #[derive(Debug, Clone)]
@@ -91,11 +91,11 @@ pub struct Accuracy {
 pub struct Constant {
     /// Its name.
     pub name: Spanned<String>,
-    /// What it is.
+    /// Its value.
     pub value: ConstantValue,
 }
 
-/// What a constant is.
+/// The value of a constant.
 #[derive(Debug, Clone)]
 pub enum ConstantValue {
     /// One number.
@@ -107,7 +107,7 @@ pub enum ConstantValue {
 /// Another table whose functions are called in this one.
 #[derive(Debug, Clone)]
 pub struct Import {
-    /// What it is called here.
+    /// Its name here.
     pub alias: Spanned<String>,
     /// The file, relative to that of this table.
     pub path: Spanned<String>,

@@ -39,11 +39,11 @@ pub struct Table {
     pub source: Arc<Source>,
     /// Name of the table and prefix of everything generated from it.
     pub name: Spanned<String>,
-    /// What the table is.
+    /// The title of the table.
     pub title: String,
-    /// Where the technique was published.
+    /// The publication of the technique.
     pub origin: String,
-    /// What it means that several cases match.
+    /// The meaning of several cases that match.
     pub hit_policy: Spanned<HitPolicy>,
     /// Level sets that several inputs share.
     pub levels: Vec<(Spanned<String>, Vec<Level>)>,
@@ -55,9 +55,9 @@ pub struct Table {
     pub symmetries: Vec<Symmetry>,
     /// Conditions that hold on every state that occurs.
     pub assumptions: Vec<Assumption>,
-    /// How inputs are drawn.
+    /// The drawing hints of inputs.
     pub draw: Vec<(Spanned<String>, draw::Draw)>,
-    /// What the table returns.
+    /// The kind of its result.
     pub output: Spanned<Output>,
     /// The rows, in the order written; none in a table of functions.
     pub cases: Vec<Case>,
@@ -71,7 +71,7 @@ pub struct Table {
     pub helpers: Vec<Helper>,
     /// Functions that generated code offers; a table has cases or these.
     pub functions: Vec<Function>,
-    /// Where the value is meant to have no jumps.
+    /// The places where the value is meant to have no jumps.
     pub continuity: Vec<Continuity>,
     /// Findings about the table as a whole that are known and stay.
     pub allow: Vec<Allow>,
@@ -79,7 +79,7 @@ pub struct Table {
     pub exhibit: Option<String>,
 }
 
-/// What it means that several cases match the same input.
+/// The meaning of several cases that match the same input.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum HitPolicy {
     /// The first one written decides.
@@ -104,7 +104,7 @@ pub struct Input {
     pub name: Spanned<String>,
     /// The values it can take.
     pub domain: Spanned<Domain>,
-    /// What it is.
+    /// Its description.
     pub doc: String,
     /// Set for inputs that the host produces on demand, with their cost in texture reads.
     pub fetched: Option<Spanned<f64>>,
@@ -132,7 +132,7 @@ pub enum Domain {
 pub struct Named {
     /// Its name.
     pub name: Spanned<String>,
-    /// What it stands for.
+    /// The expression that it stands for.
     pub value: Expr,
 }
 
@@ -145,7 +145,7 @@ pub struct Symmetry {
     pub map: Vec<(Spanned<String>, Image)>,
     /// The result in terms of `value`, the result of the mapped input.
     pub result: Option<Expr>,
-    /// What it is.
+    /// Its description.
     pub doc: String,
 }
 
@@ -164,14 +164,14 @@ pub enum Image {
     },
 }
 
-/// Where the value is meant to have no jumps.
+/// The places where the value is meant to have no jumps.
 #[derive(Debug, Clone)]
 pub struct Continuity {
     /// Its name.
     pub name: Spanned<String>,
-    /// Which places.
+    /// The kind of the places.
     pub kind: ContinuityKind,
-    /// What it is.
+    /// Its description.
     pub doc: String,
 }
 
@@ -194,7 +194,7 @@ pub enum ContinuityKind {
 /// A finding that is known and stays, with the reason.
 #[derive(Debug, Clone)]
 pub struct Allow {
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The code of the finding.
     pub code: Spanned<String>,
@@ -213,7 +213,7 @@ pub struct Assumption {
     pub doc: String,
 }
 
-/// What a table returns.
+/// The kind of a table's result.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Output {
     /// One number, optionally clamped once, at the end.
@@ -242,7 +242,7 @@ pub struct Case {
     pub section: String,
     /// One line on what it is.
     pub doc: String,
-    /// How it is decided and what it returns.
+    /// Its conditions and values.
     pub body: CaseBody,
     /// Misprints of the source that were mended here.
     pub errata: Vec<Erratum>,
@@ -252,7 +252,7 @@ pub struct Case {
     pub allow: Vec<Allow>,
 }
 
-/// How a row is decided and what it returns.
+/// The conditions and values of a row.
 #[derive(Debug, Clone)]
 pub enum CaseBody {
     /// A guard and the lines of its value, of which the first that applies counts.
@@ -285,16 +285,16 @@ pub struct Line {
 pub struct Erratum {
     /// Its number in the list of errata.
     pub number: u32,
-    /// What is printed.
+    /// The text as printed.
     pub printed: String,
-    /// What is meant.
+    /// The text as meant.
     pub meant: String,
 }
 
 /// Inputs with the expected result.
 #[derive(Debug, Clone)]
 pub struct Example {
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The inputs that differ from their defaults.
     pub inputs: Vec<(Spanned<String>, Expr)>,
@@ -329,7 +329,7 @@ impl Table {
         imports::resolve(read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })?)
     }
 
-    /// Whether a text is a table, as far as that can be said without reading what it imports.
+    /// Checks that a text is a table, as far as that can be said without reading what it imports.
     pub(crate) fn well_formed(source: &Arc<Source>) -> Result<(), Failure> {
         read::table(source).map(drop).map_err(|diagnostics| Failure { source: source.clone(), diagnostics })
     }

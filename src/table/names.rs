@@ -1,4 +1,4 @@
-//! Which names a table may use.
+//! The names that a table may use.
 //!
 //! Names of tables, inputs and levels appear verbatim in every generated
 //! language, so that shader and table read alike. That is only safe if a name

@@ -31,7 +31,7 @@ struct Parser<'a> {
     tokens: Vec<(Span, Token<'a>)>,
     at: usize,
     depth: usize,
-    /// Whether the bounds of `F | x = lo .. hi` are being read.
+    /// True if the bounds of `F | x = lo .. hi` are being read.
     bounds: bool,
 }
 

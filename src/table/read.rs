@@ -294,7 +294,7 @@ impl Errors {
     }
 }
 
-/// What a table of cases says besides its cases.
+/// The parts of a table of cases besides its cases.
 struct Decision {
     hit_policy: Spanned<HitPolicy>,
     output: Spanned<Output>,

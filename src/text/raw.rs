@@ -94,7 +94,7 @@ impl<'a> Reader<'a> {
         self.source.text.len() - tokens::skip_blank(&self.source.text).len()
     }
 
-    /// Where a piece stands.
+    /// The place of a piece.
     pub(crate) fn span(&self, raw: Raw<'a>) -> Span {
         // A `Raw` is a slice of the source, so the difference of the addresses is its offset.
         let start = (raw.0.as_ptr() as usize).saturating_sub(self.source.text.as_ptr() as usize);
@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What a piece starts with decides how it is read.
+    /// The shape of a piece, by its first character.
     pub(crate) fn shape(&self, raw: Raw<'a>) -> Shape<'a> {
         match raw.0.as_bytes().first() {
             Some(b'"') => Shape::Text,

@@ -4,7 +4,7 @@
 //! them. It needs no values, so this knows brackets, strings and separators
 //! only, and whatever else stands between them is an atom.
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// `(`, `[` or `{`.
@@ -26,7 +26,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// Whether a token of this kind is a comment.
+    /// Returns whether a token of this kind is a comment.
     pub(crate) fn is_comment(self) -> bool {
         matches!(self, Kind::LineComment | Kind::BlockComment)
     }
@@ -35,7 +35,7 @@ impl Kind {
 /// A token and how it stood in the source.
 #[derive(Debug, Clone)]
 pub(crate) struct Token<'a> {
-    /// What it is.
+    /// Its kind.
     pub(crate) kind: Kind,
     /// It itself.
     pub(crate) text: &'a str,
@@ -45,12 +45,12 @@ pub(crate) struct Token<'a> {
     pub(crate) column: usize,
     /// Blanks between it and the token before, if that is on the same line.
     pub(crate) gap: usize,
-    /// Where its line began, in characters.
+    /// The start of its line, in characters.
     pub(crate) indent: usize,
 }
 
 impl Token<'_> {
-    /// Whether it is a comment.
+    /// Returns whether it is a comment.
     pub(crate) fn is_comment(&self) -> bool {
         self.kind.is_comment()
     }
@@ -162,7 +162,7 @@ fn block_comment_end(text: &str) -> Option<usize> {
     }
 }
 
-/// Where a text in quotes ends; a backslash takes what follows it along.
+/// The end of a text in quotes; a backslash takes what follows it along.
 fn text_end(rest: &str) -> usize {
     let mut escaped = false;
     for (at, c) in rest.char_indices().skip(1) {
@@ -176,7 +176,7 @@ fn text_end(rest: &str) -> usize {
     rest.len()
 }
 
-/// How many `#` a raw text has, if this is one.
+/// The number of `#` of a raw text, if this is one.
 fn raw_hashes(rest: &str) -> Option<usize> {
     let after = rest.strip_prefix('r')?;
     let hashes = after.bytes().take_while(|b| *b == b'#').count();

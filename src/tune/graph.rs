@@ -28,7 +28,7 @@ const CORNER: f64 = 13.0;
 pub(super) struct Graph {
     /// The SVG element.
     pub(super) svg: String,
-    /// Whether everything is drawn; else the steps that are farthest from the start are left out.
+    /// True if everything is drawn; else the steps that are farthest from the start are left out.
     pub(super) complete: bool,
 }
 
@@ -174,7 +174,7 @@ fn next(plan: &Plan<'_>, id: StepId) -> BTreeSet<StepId> {
     plan.step(id).next().into_iter().collect()
 }
 
-/// What is written on a step, and the colour of its ground.
+/// The text on a step, and the colour of its ground.
 fn node(plan: &Plan<'_>, id: StepId) -> (String, &'static str) {
     let program = plan.program;
     let printer = Printer { pool: &plan.pool, inputs: &program.inputs };

@@ -1,6 +1,6 @@
 //! The inputs to measure with: captured ones, random ones, coherent ones.
 //!
-//! What a plan costs depends on what neighbouring threads have to do. So each
+//! The cost of a plan depends on the work of neighbouring threads. So each
 //! plan meets three kinds of columns: what frames really contain, the worst a
 //! group of threads can meet, and the best.
 

@@ -30,23 +30,23 @@ pub use page::page;
 /// Rows that results are compared at, at most.
 const CHECKED: usize = 1 << 16;
 
-/// How to tune.
+/// The extent of a tuning.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The plans to try.
     pub shapes: Vec<Shape>,
-    /// Whether plans that rely on the table's assumptions are tried, too.
+    /// True if plans that rely on the table's assumptions are tried, too.
     pub assume: bool,
     /// Rows of inputs of each kind.
     pub rows: usize,
     /// Rows that a thread evaluates; of the first it reads all inputs, of the others the key. 1 is a pass over
     /// memory, more show what plans cost where the inputs are at hand.
     pub rows_of_thread: u32,
-    /// How often all of it is done in one measurement.
+    /// Repetitions of all of it in one measurement.
     pub repeats: u32,
-    /// How often to measure.
+    /// The number of measurements.
     pub protocol: Protocol,
-    /// Whether to use the wall clock even if the device has timestamps.
+    /// True if to use the wall clock even if the device has timestamps.
     pub wall_clock: bool,
 }
 
@@ -69,9 +69,9 @@ impl Default for Options {
 pub struct Candidate {
     /// The code shape.
     pub shape: Shape,
-    /// Whether the profile is used.
+    /// True if the profile is used.
     pub weighted: bool,
-    /// Whether the table's assumptions are used.
+    /// True if the table's assumptions are used.
     pub assume: bool,
 }
 
@@ -108,28 +108,28 @@ impl Candidate {
 /// A plan that was measured.
 #[derive(Debug)]
 pub struct Measured<'p> {
-    /// How it was made.
+    /// The way it was made.
     pub candidate: Candidate,
     /// The plan, proved.
     pub proved: Proved<'p>,
-    /// How its results compare with the interpreter's, at captured inputs.
+    /// The comparison of its results with the interpreter's, at captured inputs.
     pub check: diff::Run,
     /// Times by kind of input, in the order of [`Kind::ALL`].
     pub times: Vec<Times>,
 }
 
-/// What tuning found.
+/// The result of a tuning.
 #[derive(Debug)]
 pub struct Tuning<'p> {
     /// The device, in words.
     pub device: String,
-    /// What times were taken with.
+    /// The clock that times were taken with.
     pub clock: Clock,
-    /// How it was tuned.
+    /// The extent of the tuning.
     pub options: Options,
-    /// Whether captured inputs were given, or drawn as the profile says.
+    /// True if captured inputs were given; otherwise they were drawn as the profile says.
     pub frames: bool,
-    /// Where the weights come from.
+    /// The origin of the weights.
     pub profile: Fitted,
     /// Times of reading and writing the data, by kind of input.
     pub floor: Vec<Times>,
@@ -272,13 +272,13 @@ pub struct Line {
     pub input: Kind,
     /// Median time of one evaluation of all rows, in microseconds.
     pub us: f64,
-    /// How uncertain that is, in microseconds.
+    /// The uncertainty of that, in microseconds.
     pub uncertainty: f64,
     /// The same relative to the ladder as written.
     pub vs_ladder: f64,
     /// The same relative to reading and writing the data.
     pub vs_floor: f64,
-    /// Whether it differs from the ladder as written by more than noise.
+    /// True if it differs from the ladder as written by more than noise.
     pub differs: bool,
 }
 
@@ -304,7 +304,7 @@ impl Tuning<'_> {
         lines
     }
 
-    /// Whether the chosen plan differs from the ladder as written by more than noise, on captured inputs.
+    /// Returns whether the chosen plan differs from the ladder as written by more than noise, on captured inputs.
     pub fn is_clear(&self) -> bool {
         self.chosen == 0 || self.plans[self.chosen].times[0].differs_from(&self.plans[0].times[0])
     }
@@ -332,7 +332,7 @@ impl Tuning<'_> {
         }
     }
 
-    /// How it was measured, in words.
+    /// The method of measurement, in words.
     pub fn method(&self) -> String {
         let captured = if self.frames { "captured frames" } else { "states drawn as the profile says" };
         format!(

@@ -1,4 +1,4 @@
-//! What tuning found, as a page: frequencies, times, and the chosen decision drawn.
+//! The result of a tuning as a page: frequencies, times, and the chosen decision drawn.
 
 use maud::{Markup, PreEscaped, html};
 

@@ -11,7 +11,7 @@ use crate::program::Program;
 use crate::technique::prepared::{Detail, Pass, Watch};
 use crate::technique::{self, Ability, Frame, Prepared, Technique};
 
-/// What was measured of a frame, in one kind of pass.
+/// The measurements of a frame, in one kind of pass.
 #[derive(Debug, Clone)]
 pub struct Whole {
     /// The scene, and its sizes, in words.
@@ -28,7 +28,7 @@ impl Whole {
         self.times[plan].median() / self.times[0].median()
     }
 
-    /// Whether the time with a plan differs from that with another by more than noise.
+    /// Returns whether the time with a plan differs from that with another by more than noise.
     pub fn differs(&self, plan: usize, other: usize) -> bool {
         self.times[plan].differs_from(&self.times[other])
     }

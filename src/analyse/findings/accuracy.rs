@@ -20,7 +20,7 @@ const POINTS: usize = 48;
 /// Half a unit in the last place of 1 in `f32`.
 const HALF_UNIT: f64 = 1.0 / 16_777_216.0;
 
-/// How far from a limit the function is looked at, and how far it may then be from it.
+/// The distance from a limit at which the function is evaluated, and its largest distance from the limit there.
 const STEP: f64 = 1e-3;
 const CLOSE: f64 = 1e-4;
 
@@ -40,7 +40,7 @@ fn findings(program: &Program) -> Vec<Diagnostic> {
     found
 }
 
-/// How far each component of a function may be from its exact value at a point
+/// The error that each component of a function may have at a point
 /// of `f32` numbers; `None` without a claim, or where the function is not finite.
 pub fn allowance(program: &Program, wide: &mut Interpreter<'_, f64>, point: &[Option<Value>]) -> Option<Vec<f64>> {
     let claim = program.function.as_ref()?.accuracy.as_ref()?;
@@ -65,7 +65,7 @@ pub fn allowance(program: &Program, wide: &mut Interpreter<'_, f64>, point: &[Op
     allowed.iter().all(|allowed| allowed.is_finite()).then_some(allowed)
 }
 
-/// Where a function is least accurate.
+/// The point at which a function is least accurate.
 struct Worst {
     /// The error, of what is allowed.
     times: f64,
@@ -141,7 +141,7 @@ fn check_limit(program: &Program, function: &Function, limit: &Limit) -> Option<
     None
 }
 
-/// What the function comes to on both sides of a point, in the middle.
+/// The mean of the function's values on both sides of a point.
 fn beside(wide: &mut Interpreter<'_, f64>, point: &[Option<Value>], at: &[(InputId, f64)]) -> Option<Vec<f64>> {
     let mut sum: Vec<f64> = Vec::new();
     for direction in [-0.5, 0.5] {

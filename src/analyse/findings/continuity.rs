@@ -18,7 +18,7 @@ use crate::program::{Continuity, ContinuityKind, ExprId, InputId, InputSet, Leve
 /// The case and line on either side.
 type Sides = [(Option<usize>, Option<usize>); 2];
 
-/// How finely the size of a jump is measured, in halvings of the output's range.
+/// The precision to which a jump is measured, in halvings of the output's range.
 const HALVINGS: usize = 11;
 
 /// A jump.
@@ -56,7 +56,7 @@ fn all_numbers(program: &Program) -> InputSet {
     continuous.fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(id)))
 }
 
-/// Where the value is not that of the image across a border.
+/// Finds the places at a border where the value is not that of the image across it.
 fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
     let ContinuityKind::Border(when, free) = &continuity.kind else { return Vec::new() };
     let Some((wide, other)) = doubled(program, free) else {
@@ -140,7 +140,7 @@ fn doubled(program: &Program, free: &[InputId]) -> Option<(Program, Vec<(InputId
     Some((wide, other))
 }
 
-/// Where comparisons of some inputs switch between different values.
+/// Finds the places where comparisons of some inputs switch between different values.
 fn switches(study: &mut Study<'_>, inputs: &[InputId]) -> Vec<Jump> {
     let mut jumps = Vec::new();
     for digit in study.space.switches(inputs) {
@@ -179,7 +179,7 @@ fn jump(study: &mut Study<'_>, both: Set, here: &Piece, there: &Piece) -> Option
     Some(Jump { sides, set, values: [here.values.clone(), there.values.clone()] })
 }
 
-/// How far the value jumps at most in a set, and where it jumps that far.
+/// The largest jump of the value in a set, and the part of the set that has it.
 fn size(study: &mut Study<'_>, jump: &Jump) -> (f64, Set) {
     let (mut best, mut place) = (0.0, jump.set);
     for (a, b) in jump.values[0].iter().zip(&jump.values[1]) {
@@ -217,7 +217,7 @@ fn size(study: &mut Study<'_>, jump: &Jump) -> (f64, Set) {
 /// The cases on both sides of a jump, the smaller first; `None` is the default.
 type Pair = (Option<usize>, Option<usize>);
 
-/// What to say of a place: inputs on this side, and on the other if they are not the same.
+/// The words for a place: inputs on this side, and on the other if they are not the same.
 type Tell<'a> = &'a dyn Fn(&mut Space<'_>, Set) -> Option<(String, Option<String>)>;
 
 /// One warning for each pair of cases between which the value jumps, the largest jump first.

@@ -13,7 +13,7 @@ use crate::diag::{Diagnostic, codes};
 use crate::program::Program;
 use crate::table::HitPolicy;
 
-/// How far the cases of a table claim its states.
+/// The states of a table that its cases claim.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Coverage {
     /// All states of the discrete inputs that are not fetched.
@@ -37,7 +37,7 @@ pub struct Dead {
     pub covered_by: Vec<usize>,
 }
 
-/// Which states are claimed by which cases.
+/// Finds the cases that claim each state.
 pub fn coverage(program: &Program) -> Coverage {
     let mut study = Study::new(program);
     let (unclaimed, open) = gaps(&mut study);
@@ -176,7 +176,7 @@ fn not_reached(study: &mut Study<'_>, row: usize) -> Diagnostic {
     warning.help(nearest(study, row)).help("widen the guard, mend the assumption, or remove the case")
 }
 
-/// What would have to be left out of a guard for it to hold somewhere.
+/// Names the parts of a guard without which it would hold somewhere.
 fn nearest(study: &mut Study<'_>, row: usize) -> String {
     let guard = study.rows.guards[row];
     let pattern = study.space.sets.patterns(guard, 1).into_iter().next().unwrap_or_default();

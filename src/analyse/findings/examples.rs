@@ -7,7 +7,7 @@ use crate::eval::Interpreter;
 use crate::program::{Example, Program};
 use crate::show::{Precision, sentence};
 
-/// Whether a computed component is what an example expects.
+/// Returns whether a computed component is what an example expects.
 ///
 /// Expected values are written in decimal and computed ones are `f32`, so the
 /// two may differ by a few roundings: one millionth, relative above one. Whole
@@ -79,7 +79,7 @@ fn run(program: &Program, interpreter: &mut Interpreter<'_, f32>, example: &Exam
 mod tests {
     use crate::analyse::found;
 
-    /// What is said of examples; that the cases overlap is another matter.
+    /// The findings about an example; that the cases overlap is another matter.
     fn with_example(example: &str) -> Vec<String> {
         let all = found(&format!(
             r#"Table(language: 1, name: "t", hit_policy: First,

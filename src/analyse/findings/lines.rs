@@ -29,7 +29,7 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Where the case is taken and none of its lines applies.
+/// Reports where the case is taken and none of its lines applies.
 fn no_line(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> {
     let default = study.rows.own[row].iter().filter(|piece| piece.line.is_none());
     let default: Vec<Set> = default.map(|piece| piece.set).collect();
@@ -116,7 +116,7 @@ fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic>
     Some(warning.help("make the conditions exclude each other, or acknowledge that the order decides"))
 }
 
-/// Where the values of two lines differ, within a set.
+/// The part of a set in which the values of two lines differ.
 fn lines_differ(study: &mut Study<'_>, row: usize, (first, second): (usize, usize), within: Set) -> Set {
     let lines = &study.program.rows[row].lines;
     let parts = [first, second].map(|line| study.space.products(&lines[line].values, View::PLAIN));

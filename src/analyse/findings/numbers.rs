@@ -12,7 +12,7 @@ use crate::diag::{Diagnostic, codes};
 use crate::program::print::Printer;
 use crate::program::{Comparison, Cond, CondId, ExprId, Node, Program, TernaryOp};
 
-/// What a row gives before and after the output's clamp.
+/// The values of a row, before and after the output's clamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// The row, as an index into [`Program::rows`]; `None` where no row is taken.
@@ -23,10 +23,10 @@ pub struct Range {
     pub after: (f64, f64),
 }
 
-/// How close to the exact bounds a range is.
+/// The largest distance of a range from the exact bounds.
 const PRECISION: f64 = 1e-3;
 
-/// What each row can give, by interval arithmetic on smaller and smaller parts
+/// The values that each row can give, by interval arithmetic on smaller and smaller parts
 /// of the domain: never too narrow, and too wide by at most a thousandth unless
 /// the value depends on too many inputs at once. Components are taken together.
 pub fn ranges(program: &Program) -> Vec<Range> {
@@ -172,7 +172,7 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
 /// Most boxes that the search for trouble looks at.
 const MAX_BOXES: usize = 1024;
 
-/// How a search for trouble ended.
+/// The end of a search for trouble.
 enum Search {
     Found(Trouble, Vec<f64>),
     Nothing,
@@ -228,7 +228,7 @@ fn search(study: &mut Study<'_>, piece: &Piece, set: Set, value: ExprId) -> Sear
     Search::Nothing
 }
 
-/// Whether a piece gives its value at these numbers, for some levels.
+/// Returns whether a piece gives its value at these numbers, for some levels.
 fn is_in(study: &mut Study<'_>, piece: &Piece, set: Set, numbers: &[f64]) -> bool {
     let Some(witness) = study.space.with_numbers(set, numbers) else { return false };
     // What is not linear was taken to be possible, so the program itself is asked.

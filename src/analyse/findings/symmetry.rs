@@ -19,7 +19,7 @@ use crate::analyse::words;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{ExprId, InputSet, Program, Symmetry};
 
-/// Where two pieces of a program contradict each other under a symmetry.
+/// Two pieces of a program that contradict each other under a symmetry.
 struct Contradiction {
     symmetry: usize,
     rows: (Option<usize>, Option<usize>),
@@ -29,7 +29,7 @@ struct Contradiction {
 /// A case, or the default, and the line that gives its value, or the default.
 type Place = (Option<usize>, Option<usize>);
 
-/// What is known of a line that disagrees with most of its images.
+/// A line that disagrees with most of its images.
 struct Odd {
     point: Point,
     votes: (usize, usize),
@@ -126,7 +126,7 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Where the table contradicts a symmetry: on inputs that the assumptions admit
+/// Finds contradictions of a symmetry: on inputs that the assumptions admit
 /// with their images, and then pairs of rows for which this only happens on others.
 fn contradictions(study: &mut Study<'_>, number: usize) -> (Vec<Contradiction>, Vec<Contradiction>) {
     let symmetry = &study.program.symmetries[number];
@@ -158,7 +158,7 @@ fn contradictions(study: &mut Study<'_>, number: usize) -> (Vec<Contradiction>, 
     (broken, saved)
 }
 
-/// Where a value, mapped as results are, is not the value of the image.
+/// The set where a value, mapped as results are, is not the value of the image.
 fn differ(study: &mut Study<'_>, symmetry: &Symmetry, piece: &Piece, image: &Piece) -> Set {
     let Some(map) = symmetry.result else { return study.space.different(&piece.values, &image.values) };
     let mut result = Set::EMPTY;

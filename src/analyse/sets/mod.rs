@@ -106,12 +106,12 @@ impl Sets {
         self.levels.len() - 1
     }
 
-    /// How many levels a digit has.
+    /// The number of levels of a digit.
     pub(super) fn levels(&self, digit: usize) -> usize {
         self.levels[digit]
     }
 
-    /// Whether sets were given up for their size. Then no answer is worth anything.
+    /// Returns whether sets were given up for their size. Then no answer is worth anything.
     pub(super) fn is_full(&self) -> bool {
         self.full
     }
@@ -186,7 +186,7 @@ impl Sets {
         }
     }
 
-    /// Where a digit has one of some levels.
+    /// The set where a digit has one of some levels.
     pub(super) fn atom(&mut self, digit: usize, levels: LevelSet) -> Set {
         let child = |level: usize| if levels.contains(level as u8) { Set::ALL } else { Set::EMPTY };
         let children: Vec<Set> = (0..self.levels[digit]).map(child).collect();
@@ -201,7 +201,7 @@ impl Sets {
         self.apply(Operation::Or, a.min(b), a.max(b))
     }
 
-    /// What is in `a` and not in `b`.
+    /// The part of `a` that is not in `b`.
     pub(super) fn minus(&mut self, a: Set, b: Set) -> Set {
         self.apply(Operation::Minus, a, b)
     }
@@ -243,12 +243,12 @@ impl Sets {
         result
     }
 
-    /// Whether all of `a` is in `b`.
+    /// Returns whether all of `a` is in `b`.
     pub(super) fn within(&mut self, a: Set, b: Set) -> bool {
         self.minus(a, b).is_empty()
     }
 
-    /// Whether some combination is in both.
+    /// Returns whether some combination is in both.
     pub(super) fn meets(&self, a: Set, b: Set) -> bool {
         match (a, b) {
             (Set::EMPTY, _) | (_, Set::EMPTY) => return false,
@@ -263,7 +263,7 @@ impl Sets {
         levels.map(own).any(|pair| last.replace(pair) != Some(pair) && self.meets(pair.0, pair.1))
     }
 
-    /// Where the digits before `end` leave something of the set.
+    /// The set of the digits before `end` that leave something of a set.
     pub(super) fn shadow(&mut self, set: Set, end: usize) -> Set {
         self.shadow_memo(set, end, &mut Map::default())
     }
@@ -304,7 +304,7 @@ impl Sets {
         result
     }
 
-    /// How many combinations of the digits before `end` a set has that tests no others.
+    /// The number of combinations of the digits before `end` in a set that tests no others.
     pub(super) fn count(&self, set: Set, end: usize) -> f64 {
         let all: f64 = self.levels[..end].iter().map(|count| *count as f64).product();
         all * self.share(set, &mut Map::default())
@@ -407,7 +407,7 @@ impl Sets {
         (!rest.is_empty()).then_some(pattern)
     }
 
-    /// Where each of some digits has one of some levels.
+    /// The set where each of some digits has one of some levels.
     pub(super) fn pattern(&mut self, pattern: &[(usize, LevelSet)]) -> Set {
         let mut set = Set::ALL;
         for (digit, levels) in pattern {

@@ -1,4 +1,4 @@
-//! Which rows may hold together with a row, without trying every pair.
+//! Finds the rows that may hold together with a row, without trying every pair.
 //!
 //! A guard lies in a box, the levels of each digit that something in it has.
 //! Rows whose boxes are apart never meet, and that is found for all rows at

@@ -47,7 +47,7 @@ struct Images {
     inner: View,
 }
 
-/// What a digit after those of the inputs asks.
+/// The question that a digit after those of the inputs stands for.
 enum Question {
     /// The sign of an affine form, by its number.
     Sign(usize),
@@ -74,7 +74,7 @@ pub(in crate::analyse) struct Space<'p> {
     views: Vec<Images>,
     conditions: Map<(CondId, View), Set>,
     parts: Map<(ExprId, View), Parts>,
-    /// Where one value is less than another; many cases compare the same ones.
+    /// The sets where one value is less than another; many cases compare the same ones.
     less: Map<(ExprId, ExprId), Set>,
     pruned: Map<Set, Set>,
     /// Signs of forms that were asked for together, and whether numbers have them.
@@ -116,12 +116,12 @@ impl<'p> Space<'p> {
         }
     }
 
-    /// Whether something was given up for its size. Then no answer is worth anything.
+    /// Returns whether something was given up for its size. Then no answer is worth anything.
     pub(in crate::analyse) fn is_too_large(&self) -> bool {
         self.too_large || self.sets.is_full()
     }
 
-    /// How many digits belong to the states.
+    /// The number of digits that belong to the states.
     pub(in crate::analyse) fn state_digits(&self) -> usize {
         self.program.states.digits().len()
     }
@@ -151,7 +151,7 @@ impl<'p> Space<'p> {
         View(self.views.len() - 1)
     }
 
-    /// Where a discrete input has one of some levels.
+    /// The set where a discrete input has one of some levels.
     fn level(&mut self, input: InputId, levels: LevelSet, view: View) -> Set {
         if view == View::PLAIN {
             return self.digits[input.index()].map_or(Set::EMPTY, |digit| self.sets.atom(digit, levels));
@@ -192,7 +192,7 @@ impl<'p> Space<'p> {
         self.sets.or(then, other)
     }
 
-    /// Where a condition of the program holds.
+    /// The set where a condition of the program holds.
     pub(in crate::analyse) fn condition(&mut self, condition: CondId, view: View) -> Set {
         if let Some(known) = self.conditions.get(&(condition, view)) {
             return *known;
@@ -245,7 +245,7 @@ impl<'p> Space<'p> {
         result
     }
 
-    /// Where `a < b`, of values without selections.
+    /// The set where `a < b`, of values without selections.
     pub(in crate::analyse) fn less(&mut self, a: ExprId, b: ExprId) -> Set {
         if let Some(known) = self.less.get(&(a, b)) {
             return *known;
@@ -302,7 +302,7 @@ impl<'p> Space<'p> {
         self.sets.not(different)
     }
 
-    /// Where some components differ, of values without selections.
+    /// The set where some components differ, of values without selections.
     pub(in crate::analyse) fn different(&mut self, a: &[ExprId], b: &[ExprId]) -> Set {
         let mut result = Set::EMPTY;
         for (a, b) in a.iter().zip(b) {
@@ -331,7 +331,7 @@ impl<'p> Space<'p> {
         Some(self.normaliser.lattice_of(id).clone())
     }
 
-    /// Where a form is positive.
+    /// The set where a form is positive.
     fn positive(&mut self, form: Affine) -> Set {
         if let Some((lo, hi)) = self.bounds(&form) {
             if lo.is_positive() {
@@ -360,7 +360,7 @@ impl<'p> Space<'p> {
         self.sets.atom(digit, LevelSet::one(code(wanted)))
     }
 
-    /// What a form can be, each input taken for itself.
+    /// The bounds of a form, each input taken for itself.
     fn bounds(&self, form: &Affine) -> Option<(Rational, Rational)> {
         let (mut lo, mut hi) = (form.constant, form.constant);
         for (term, factor) in &form.terms {
@@ -487,7 +487,7 @@ impl<'p> Space<'p> {
         }
     }
 
-    /// Where `b` is more than `a + by`, of values without selections.
+    /// The set where `b` is more than `a + by`, of values without selections.
     pub(in crate::analyse) fn exceeds(&mut self, a: ExprId, b: ExprId, by: f64) -> Set {
         let by = self.pool.number(by);
         let raised = self.pool.binary(BinaryOp::Add, a, by);

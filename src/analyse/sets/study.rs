@@ -1,18 +1,18 @@
-//! What all analyses of a program start from: its rows as sets.
+//! The start of all analyses of a program: its rows as sets.
 
 use super::Set;
 use super::nearby::Nearby;
 use super::space::{Space, View};
 use crate::program::{ExprId, Program};
 
-/// Where a row gives a value without selections.
+/// A value without selections, and the set where a row gives it.
 #[derive(Debug, Clone)]
 pub(in crate::analyse) struct Piece {
     /// The row, as an index into [`Program::rows`]; `None` where no row applies.
     pub(in crate::analyse) row: Option<usize>,
     /// The line that gives the value; `None` for the default.
     pub(in crate::analyse) line: Option<usize>,
-    /// Where.
+    /// The set.
     pub(in crate::analyse) set: Set,
     /// The value, one expression per component.
     pub(in crate::analyse) values: Vec<ExprId>,
@@ -20,13 +20,13 @@ pub(in crate::analyse) struct Piece {
 
 /// The rows of a program, seen through one view.
 pub(in crate::analyse) struct Rows {
-    /// Where the guard of each row holds.
+    /// The set where each row's guard holds.
     pub(in crate::analyse) guards: Vec<Set>,
-    /// Where each row is taken.
+    /// The set where each row is taken.
     pub(in crate::analyse) taken: Vec<Set>,
-    /// Where no row is taken.
+    /// The set where no row is taken.
     pub(in crate::analyse) unclaimed: Set,
-    /// What each row gives where its guard holds, whether or not it is taken.
+    /// The values of each row where its guard holds, taken or not.
     pub(in crate::analyse) own: Vec<Vec<Piece>>,
 }
 
@@ -53,7 +53,7 @@ impl Rows {
         rows
     }
 
-    /// What the program gives, piece by piece.
+    /// The values of the program, piece by piece.
     pub(in crate::analyse) fn pieces(&self, space: &mut Space<'_>, view: View) -> Vec<Piece> {
         let mut pieces = Vec::new();
         for (taken, own) in self.taken.iter().zip(&self.own) {
@@ -94,11 +94,11 @@ pub(in crate::analyse) struct Study<'p> {
     pub(in crate::analyse) program: &'p Program,
     pub(in crate::analyse) space: Space<'p>,
     pub(in crate::analyse) rows: Rows,
-    /// Which guards may hold together.
+    /// The guards that may hold together.
     pub(in crate::analyse) nearby: Nearby,
-    /// What the program gives, piece by piece, in the order of rows, the default last.
+    /// The values of the program, piece by piece, in the order of rows, the default last.
     pub(in crate::analyse) pieces: Vec<Piece>,
-    /// Where all assumptions hold.
+    /// The set where all assumptions hold.
     pub(in crate::analyse) assumed: Set,
 }
 
@@ -112,7 +112,7 @@ impl<'p> Study<'p> {
         Self { program, space, rows, nearby, pieces, assumed }
     }
 
-    /// What a row gives where it is taken; `None` is the default.
+    /// The values of a row where it is taken; `None` is the default.
     pub(in crate::analyse) fn pieces_of(&self, row: Option<usize>) -> &[Piece] {
         let place = |row: Option<usize>| row.unwrap_or(usize::MAX);
         let start = self.pieces.partition_point(|piece| place(piece.row) < place(row));

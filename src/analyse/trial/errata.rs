@@ -9,7 +9,7 @@ use crate::analyse::lints::{Findings, LintLevels};
 use crate::diag::{Diagnostic, Severity};
 use crate::program::Program;
 
-/// What is known of one misprint.
+/// A misprint, and what the analyses find of it.
 struct Misprint {
     cases: Vec<u32>,
     printed: String,

@@ -33,7 +33,7 @@ impl Mistake {
     pub const ALL: [Mistake; 6] =
         [Mistake::Level, Mistake::Negation, Mistake::Exchange, Mistake::Missing, Mistake::Sign, Mistake::Input];
 
-    /// What it is, in words.
+    /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {
             Mistake::Level => "another level",
@@ -46,10 +46,10 @@ impl Mistake {
     }
 }
 
-/// What became of mistakes of one kind.
+/// The fate of mistakes of one kind.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// How many were made.
+    /// The number that was made.
     pub made: usize,
     /// Changes after which the table gives the same where the assumptions hold.
     pub harmless: usize,
@@ -75,7 +75,7 @@ impl Tally {
     }
 }
 
-/// How many points of each piece of a table decide whether a change is harmless.
+/// The number of points of each piece of a table by which a change is judged harmless.
 const SAMPLES: usize = 24;
 
 /// Makes `count` mistakes, of each kind as often as of any other, and checks what is said of each.
@@ -122,7 +122,7 @@ pub fn survey(
     Ok(tallies)
 }
 
-/// What the analyses say, examples aside.
+/// The findings of the analyses, examples aside.
 fn said(program: &Program) -> Vec<(Severity, String)> {
     let mut without = program.clone();
     without.examples.clear();
@@ -207,7 +207,7 @@ fn value_mut(table: &mut Table, (case, line): (usize, usize)) -> Option<&mut Exp
     }
 }
 
-/// What can stand in place of what.
+/// The words that can stand for each other.
 struct Vocabulary {
     /// The levels of each discrete input.
     levels: Vec<(String, Vec<String>)>,

@@ -1,4 +1,4 @@
-//! What the images of a point under the declared symmetries say of the value
+//! The say of a point's images under the declared symmetries about the value
 //! there, and which of them is the odd one out.
 
 use super::point::{Outcome, Point};
@@ -9,7 +9,7 @@ use crate::program::{BinaryOp, ExprId, Node, Pool, Program, Symmetry};
 /// Most images of one point that are looked at.
 const MAX_MEMBERS: usize = 128;
 
-/// How a symmetry changes the result: `factor * value + offset`.
+/// The change of the result by a symmetry: `factor * value + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::analyse) struct Scale {
     factor: f64,
@@ -109,12 +109,12 @@ impl Orbit {
         Self { members, camps }
     }
 
-    /// Whether all agree.
+    /// Returns whether all agree.
     pub(in crate::analyse) fn is_unanimous(&self) -> bool {
         self.camps.len() == 1
     }
 
-    /// Whether one camp is larger than any other and at least half of all.
+    /// Returns whether one camp is larger than any other and at least half of all.
     pub(in crate::analyse) fn has_majority(&self) -> bool {
         let first = self.camps[0].len();
         2 * first >= self.members.len() && self.camps.get(1).is_none_or(|second| first > second.len())
@@ -141,7 +141,7 @@ pub(in crate::analyse) fn agree(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9)
 }
 
-/// What the first point of an orbit would have to give to agree with one of its
+/// The value that the first point of an orbit would need to agree with one of its
 /// images: the value there, in terms of the first point.
 pub(in crate::analyse) fn expected(study: &mut Study<'_>, member: &Member) -> Option<Vec<ExprId>> {
     let program = study.program;

@@ -13,7 +13,7 @@ pub(in crate::analyse) struct Point {
     pub(in crate::analyse) numbers: Vec<f64>,
 }
 
-/// What a program gives at a point.
+/// The result of a program at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::analyse) struct Outcome {
     pub(in crate::analyse) row: Option<usize>,
@@ -33,7 +33,7 @@ impl Point {
         Self { levels: levels.collect(), numbers: numbers.collect() }
     }
 
-    /// Whether a condition holds here.
+    /// Returns whether a condition holds here.
     pub(in crate::analyse) fn holds(&self, pool: &Pool, condition: CondId) -> bool {
         match pool.cond(condition) {
             Cond::Const(value) => *value,
@@ -76,7 +76,7 @@ impl Point {
         }
     }
 
-    /// Where a symmetry leads.
+    /// The image under a symmetry.
     pub(in crate::analyse) fn image(&self, pool: &Pool, symmetry: &Symmetry) -> Self {
         let mut image = self.clone();
         for (input, term) in &symmetry.levels {
@@ -88,7 +88,7 @@ impl Point {
         image
     }
 
-    /// What the program gives here.
+    /// The result of the program here.
     pub(in crate::analyse) fn outcome(&self, program: &Program) -> Outcome {
         let pool = &program.pool;
         let row = program.rows.iter().position(|row| self.holds(pool, row.guard));

@@ -85,7 +85,7 @@ impl Boxed {
 pub(in crate::analyse) struct Trouble {
     /// The operation.
     pub(in crate::analyse) expr: ExprId,
-    /// What may happen to it, as the end of a sentence.
+    /// Its possible trouble, as the end of a sentence.
     pub(in crate::analyse) what: &'static str,
 }
 
@@ -94,7 +94,7 @@ type Interval = (f64, f64);
 /// Everything: what is left once an operation failed.
 const ANY: Interval = (f64::NEG_INFINITY, f64::INFINITY);
 
-/// Whether a value has operations that not all numbers can undergo.
+/// Returns whether a value has operations that not all numbers can undergo.
 pub(in crate::analyse) fn is_partial(pool: &Pool, expr: ExprId) -> bool {
     let any = |parts: &[ExprId]| parts.iter().any(|part| is_partial(pool, *part));
     match pool.node(expr) {

@@ -122,7 +122,7 @@ impl<'s> Reader<'s> {
     }
 }
 
-/// Where the cells of the record that begins at `start` stand, without surrounding blanks.
+/// The places of the cells of the record that begins at `start`, without surrounding blanks.
 fn cells(text: &str, start: usize) -> Vec<Span> {
     let bytes = text.as_bytes();
     let mut found = Vec::new();

@@ -51,7 +51,7 @@ impl Points {
         self.places.clear();
     }
 
-    /// How many there are.
+    /// The number of points.
     pub(super) fn len(&self) -> usize {
         self.places.len()
     }
@@ -75,13 +75,13 @@ impl Points {
         &self.values[index * self.empty.len()..][..self.empty.len()]
     }
 
-    /// Where the row of a point stands.
+    /// The place of a point's row.
     pub(super) fn place(&self, index: usize) -> Span {
         self.places[index]
     }
 }
 
-/// What is wrong with the rows; a bounded number of diagnostics and a count.
+/// The mistakes in the rows: a bounded number of diagnostics and a count.
 #[derive(Default)]
 pub(super) struct Problems {
     shown: Vec<Diagnostic>,
@@ -98,7 +98,7 @@ impl Problems {
         }
     }
 
-    /// Whether there is none.
+    /// Returns whether there is none.
     pub(super) fn is_empty(&self) -> bool {
         self.shown.is_empty()
     }
@@ -120,7 +120,7 @@ pub(super) enum Columns<'s> {
     Capture(&'s eval::Columns<f32>, usize),
 }
 
-/// What rows are read from.
+/// The file that rows are read from.
 pub(super) struct Rows {
     /// The text, or, for a capture, only its name.
     pub(super) source: std::sync::Arc<Source>,
@@ -192,7 +192,7 @@ pub(super) fn read_all(program: &Program, path: &Path) -> Result<eval::Columns<f
     }
 }
 
-/// Whether a file is named `….extension`.
+/// Returns whether a file is named `….extension`.
 pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
 }
@@ -229,7 +229,7 @@ pub(super) fn column(program: &Program, name: &str, span: Span) -> Result<InputI
     })
 }
 
-/// Whether an input may be left out though it is not fetched: the functions of
+/// Returns whether an input may be left out though it is not fetched: the functions of
 /// a table may share one list of parameters, of which this one uses only some.
 fn optional(program: &Program, input: InputId) -> bool {
     program.function.is_some() && program.idle().contains(input)
@@ -252,7 +252,7 @@ pub(super) fn complete(program: &Program, given: impl Fn(InputId) -> bool, span:
         .help(describe_columns(program)))
 }
 
-/// Which columns a table takes.
+/// The columns that a table takes, in words.
 pub(super) fn describe_columns(program: &Program) -> String {
     let list = |fetched: bool| {
         let names = program.inputs.iter().filter(|i| i.fetched.is_some() == fetched).map(|i| i.name.as_str());

@@ -61,7 +61,7 @@ struct Count {
     /// Captured inputs to count: *.bin, or CSV or *.json as `eval` reads it; each is a scene of its own
     #[arg(long, value_name = "FILE", value_delimiter = ',')]
     frames: Vec<PathBuf>,
-    /// Where the profile goes; `-` is standard output
+    /// The file for the profile; `-` is standard output
     #[arg(long, short, default_value = "-", value_name = "FILE")]
     output: PathBuf,
 }
@@ -71,10 +71,10 @@ struct Merge {
     /// The profiles
     #[arg(required = true, value_name = "PROFILE")]
     profiles: Vec<PathBuf>,
-    /// What the counts of each profile weigh, one number per profile
+    /// The weight of each profile's counts, one number per profile
     #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
     weight: Vec<f64>,
-    /// Where the profile goes; `-` is standard output
+    /// The file for the profile; `-` is standard output
     #[arg(long, short, default_value = "-", value_name = "FILE")]
     output: PathBuf,
 }

@@ -143,7 +143,7 @@ fn settings(arguments: &Arguments, techniques: &[TechniqueArgument]) -> Result<S
     Ok(settings)
 }
 
-/// What was measured on.
+/// The frame and the device of a measurement.
 struct Subject<'a> {
     on: String,
     clock: Clock,

@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Texels per side of the shadow map
     #[arg(long, default_value = "1024", value_name = "TEXELS", value_parser = parse_map)]
     shadow_map: u32,
-    /// Where the picture goes: *.png, or *.exr with linear values
+    /// The file for the picture: *.png, or *.exr with linear values
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Colour each pixel by the case that was taken, and add a legend

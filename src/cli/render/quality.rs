@@ -241,7 +241,7 @@ fn table(
     Ok(())
 }
 
-/// What the numbers mean, loss by loss: where a technique is worse than the first, the cheapest one. Errors are
+/// The meaning of the numbers, loss by loss: where a technique is worse than the first, the cheapest one. Errors are
 /// those near silhouettes.
 fn verdicts(
     out: &mut impl Write,

@@ -26,9 +26,9 @@ pub(in crate::emit) struct Body<'a, 'p> {
     count: usize,
     /// Numbers the locals that have no name in the table.
     pub(in crate::emit) temporaries: usize,
-    /// What inputs are called where they are not called by their own names.
+    /// The names of inputs that do not go by their own.
     pub(in crate::emit) renamed: HashMap<String, String>,
-    /// What the result is called in the result map of a symmetry.
+    /// The name of the result in the result map of a symmetry.
     pub(in crate::emit) result: String,
 }
 

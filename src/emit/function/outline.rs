@@ -1,4 +1,4 @@
-//! What becomes a function of its own.
+//! The choice of the steps that become functions of their own.
 //!
 //! Code that several ways lead to is printed once, where it is large. And no
 //! chain of tests gets long: drivers turn `if (a) { return x; } if (b) ...` into
@@ -19,7 +19,7 @@ pub(in crate::emit) const FAN_OUT: usize = 8;
 /// Steps from which on code that is shared becomes a function.
 const SHARED_SIZE: usize = 24;
 
-/// What is known of each step and all that follows it.
+/// Facts about each step and all that follows it.
 pub(in crate::emit) struct Outline {
     about: HashMap<StepId, About>,
 }
@@ -28,11 +28,11 @@ pub(in crate::emit) struct Outline {
 struct About {
     /// Inputs that must be there: all but those fetched on the way.
     needs: InputSet,
-    /// Whether anything is fetched.
+    /// True if anything is fetched.
     fetches: bool,
     /// Steps when printed as a tree; saturates.
     size: usize,
-    /// How many steps lead here.
+    /// The number of steps that lead here.
     ways: usize,
 }
 
@@ -87,12 +87,12 @@ impl Outline {
         self.about(step).needs
     }
 
-    /// Whether a step or one that follows it fetches.
+    /// Returns whether a step or one that follows it fetches.
     pub(in crate::emit) fn fetches(&self, step: StepId) -> bool {
         self.about(step).fetches
     }
 
-    /// Whether a step is printed as a function.
+    /// Returns whether a step is printed as a function.
     pub(in crate::emit) fn is_function(&self, step: StepId) -> bool {
         let about = self.about(step);
         about.ways > 1 && about.size >= SHARED_SIZE

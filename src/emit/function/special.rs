@@ -144,7 +144,7 @@ impl Body<'_, '_> {
         flags
     }
 
-    /// What an input is called here.
+    /// The name of an input here.
     fn current(&self, input: InputId) -> String {
         let ident = &self.plan.program.inputs[input.index()].ident;
         self.renamed.get(ident).unwrap_or(ident).clone()

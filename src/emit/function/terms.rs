@@ -8,7 +8,7 @@ use crate::emit::language::{Type, bare};
 use crate::plan::Leaf;
 use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node};
 
-/// What is in sight at a place of the code.
+/// The names in scope at a place of the code.
 #[derive(Default, Clone)]
 pub(in crate::emit) struct Locals {
     /// Expressions that have a name, or are a part of something that has.

@@ -1,4 +1,4 @@
-//! Where numbers are computed: once, and only on the ways that need them.
+//! The computation of numbers: once, and only on the ways that need them.
 //!
 //! An expression is a graph, generated code is text. What occurs more than once
 //! gets a local. A selection whose sides could fail (divide by zero, take a
@@ -20,12 +20,12 @@ const MAX_NESTING: usize = 24;
 /// Largest side of a selection that is written in place.
 const MAX_PLAIN: u32 = 40;
 
-/// What a block of statements needs whichever way its selections go.
+/// The values that a block of statements needs whichever way its selections go.
 #[derive(Default)]
 struct Needs {
     /// The expressions, operands first.
     order: Vec<ExprId>,
-    /// How often each is used.
+    /// The number of uses of each.
     uses: HashMap<ExprId, usize>,
 }
 
@@ -196,14 +196,14 @@ impl Body<'_, '_> {
         }
     }
 
-    /// Whether an expression is a selection that becomes a conditional statement.
+    /// Returns whether an expression is a selection that becomes a conditional statement.
     fn is_choice(&self, expr: ExprId, locals: &Locals) -> bool {
         let pool = &self.plan.pool;
         let Node::Select(c, a, b) = pool.node(expr) else { return false };
         !locals.decided.contains_key(&c) && [a, b].iter().any(|side| !self.is_plain(*side))
     }
 
-    /// Whether an expression is small and cannot fail.
+    /// Returns whether an expression is small and cannot fail.
     fn is_plain(&self, expr: ExprId) -> bool {
         let pool = &self.plan.pool;
         let mut open = vec![expr];
@@ -265,7 +265,7 @@ fn reach(pool: &Pool, expr: ExprId, locals: &Locals, seen: &mut BTreeSet<ExprId>
     }
 }
 
-/// Whether nothing in an expression can fail or is selected.
+/// Returns whether nothing in an expression can fail or is selected.
 fn is_safe(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, bool>) -> bool {
     if let Some(known) = known.get(&expr) {
         return *known;

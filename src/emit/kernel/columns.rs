@@ -1,4 +1,4 @@
-//! What stands around an emitted library: a stub of the host's functions, so
+//! The surroundings of an emitted library: a stub of the host's functions, so
 //! that the library can be validated by itself, and a compute shader that runs
 //! the table over columns of inputs, which is also what SPIR-V, HLSL and MSL
 //! are made of.
@@ -19,7 +19,7 @@ use crate::prove::Proved;
 /// Threads of a workgroup.
 pub const WORKGROUP: u32 = 64;
 
-/// Which entry point a compute shader calls.
+/// The entry point that a compute shader calls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Entry {
     /// Levels as their `f32` codes.
@@ -41,7 +41,7 @@ impl Entry {
     }
 }
 
-/// How the words of the columns are laid out.
+/// The layout of the words of the columns.
 ///
 /// Binding 0 holds the number of rows and then the plain inputs, row by row:
 /// for [`Entry::Key`] the key and the continuous inputs, for [`Entry::Levels`]

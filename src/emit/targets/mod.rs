@@ -22,7 +22,7 @@ pub(super) struct Definition {
     name: &'static str,
     /// The end of file names, without the leading dot.
     extension: &'static str,
-    /// Whether it is emitted where no target is named.
+    /// True if it is emitted where no target is named.
     default: bool,
     /// The constant that a Rust module beside it embeds it as, unless it is Rust itself.
     constant: Option<Constant>,

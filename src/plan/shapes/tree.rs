@@ -265,7 +265,7 @@ impl Planner<'_> {
         self.entropy(&yes) + self.entropy(&no)
     }
 
-    /// How open it is where some states go, in bits times their share: the
+    /// The entropy of where some states go, in bits times their share: the
     /// least that any tests need to find out.
     fn entropy(&self, states: &[u32]) -> f64 {
         let mut sums = self.sums.borrow_mut();

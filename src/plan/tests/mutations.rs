@@ -32,7 +32,7 @@ fn the_tables_are_proved_in_every_shape() {
     }
 }
 
-/// What a mutation changes.
+/// The part that a mutation changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Change {
     Leaf,

@@ -1,4 +1,4 @@
-//! What a table declares: level sets, inputs, names and the output. Each name
+//! The declarations of a table: level sets, inputs, names and the output. Each name
 //! is checked to be free in the table and in generated code.
 
 use std::collections::{BTreeMap, HashMap, HashSet};

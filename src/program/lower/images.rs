@@ -16,7 +16,7 @@ use crate::table::{self, ContinuityKind, Image, names};
 type MappedInputs = (Vec<(InputId, LevelTerm)>, Vec<(InputId, ExprId)>);
 
 impl<'t> Lowering<'t> {
-    /// What each mapped input becomes under a symmetry.
+    /// The term that each mapped input becomes under a symmetry.
     pub(super) fn images(&mut self, map: &'t [(Spanned<String>, Image)], env: &Env) -> Result<HashMap<InputId, Term>> {
         let mut images = HashMap::new();
         for (name, image) in map {
@@ -126,7 +126,7 @@ impl<'t> Lowering<'t> {
         Ok(Continuity { map: Symmetry { name, doc, levels, numbers, result: None, span }, kind })
     }
 
-    /// What inputs are mapped to, ready for a program.
+    /// The images of inputs, ready for a program.
     fn mapped_inputs(&mut self, map: &'t [(Spanned<String>, Image)], span: Span) -> Result<MappedInputs> {
         let mut images: Vec<_> = self.images(map, &Env::default())?.into_iter().collect();
         images.sort_by_key(|(input, _)| *input);
@@ -165,7 +165,7 @@ impl<'t> Lowering<'t> {
     }
 }
 
-/// What `result` calls the value that it maps.
+/// The name that `result` gives to the value that it maps.
 fn value_name(map: &Expr) -> Spanned<String> {
     Spanned::new(map.span, "value".to_owned())
 }

@@ -107,7 +107,7 @@ impl Lowering<'_> {
         Ok(if swap { (second_term, first_term) } else { (first_term, second_term) })
     }
 
-    /// Whether an expression consists of names that mean nothing by themselves, as those of levels do.
+    /// Returns whether an expression consists of names that mean nothing by themselves, as those of levels do.
     fn is_bare(&self, expr: &Expr, env: &Env) -> bool {
         if let Some(name) = expr.name() {
             let base = name.rsplit_once('.').map_or(name, |(base, _)| base);

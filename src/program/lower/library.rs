@@ -1,6 +1,6 @@
 //! A table of functions → programs, one for each function.
 //!
-//! What the program of a function is called: the table's name and its own. Its
+//! The program of a function has the table's name and its own. Its
 //! inputs are the parameters, its rows its cases; a function without cases has
 //! a single row, number 0, that is always taken.
 
@@ -58,7 +58,7 @@ pub(super) fn check_imports(table: &Table) -> std::result::Result<(), Failure> {
     Ok(())
 }
 
-/// What to say when a table has no function of that name.
+/// The refusal when a table has no function of that name.
 pub(in crate::program) fn no_function(table: &Table, name: Option<&str>) -> Failure {
     let known: Vec<&str> = table.functions.iter().map(|function| function.name.value.as_str()).collect();
     let listed = format!("the functions are: {}", known.join(", "));
@@ -256,7 +256,7 @@ impl<'t> Lowering<'t> {
         })
     }
 
-    /// What a function returns is what its value is.
+    /// Infers the output of a function from its value.
     fn infer_output(&mut self, term: &Term, span: crate::diag::Span) -> Result<()> {
         self.output = match term {
             Term::Number(_) => Output::Number,

@@ -58,9 +58,9 @@ struct Lowering<'t> {
     import_index: HashMap<(usize, &'t str), usize>,
     /// The functions being called, outermost first, with their scopes.
     calling: Vec<(usize, &'t str)>,
-    /// Whether sine and cosine mean the portable ones.
+    /// True if sine and cosine mean the portable ones.
     portable: bool,
-    /// How deep [`Lowering::term`] is nested in itself.
+    /// The depth to which [`Lowering::term`] is nested in itself.
     depth: u32,
     input_index: HashMap<&'t str, InputId>,
     set_index: HashMap<&'t str, SetId>,

@@ -1,4 +1,4 @@
-//! What names mean at some point: locals, inputs (perhaps replaced), named
+//! The meaning of names at some point: locals, inputs (perhaps replaced), named
 //! values, and what to say of a name that means nothing.
 
 use std::cell::RefCell;
@@ -15,18 +15,18 @@ use crate::table::expr::{Expr, ExprKind};
 use crate::table::{self, names};
 use crate::text::closest::nearest;
 
-/// What names mean at some point.
+/// The meaning of names at some point.
 #[derive(Clone, Default)]
 pub(super) struct Env {
     /// Inputs that mean something else here.
     pub(super) overrides: Arc<HashMap<InputId, Term>>,
-    /// What named values became under these overrides.
+    /// The terms of named values under these overrides.
     pub(super) names: Rc<RefCell<HashMap<usize, Term>>>,
     /// Names bound by `let`, innermost last.
     pub(super) locals: Vec<(Spanned<String>, Term)>,
-    /// Which cases are being lowered, outermost first.
+    /// The cases that are being lowered, outermost first.
     pub(super) cases: Vec<u32>,
-    /// Whether this is the value of a referenced case, where no further reference is allowed.
+    /// True if this is the value of a referenced case, where no further reference is allowed.
     pub(super) referenced: bool,
     /// In a function that is called: its parameters, which take the place of the inputs.
     pub(super) parameters: Option<Rc<Vec<(String, Term)>>>,
@@ -131,7 +131,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether a name stands for something by itself, as levels do not.
+    /// Returns whether a name stands for something by itself, as levels do not.
     pub(super) fn is_defined(&self, name: &str, env: &Env) -> bool {
         let known = match &env.parameters {
             Some(parameters) => parameters.iter().any(|(parameter, _)| parameter == name),
@@ -147,7 +147,7 @@ impl Lowering<'_> {
         self.input_index.get(name).copied()
     }
 
-    /// What an input means in an environment.
+    /// The meaning of an input in an environment.
     pub(super) fn input_term(&mut self, input: InputId, env: &Env) -> Term {
         if let Some(term) = env.overrides.get(&input) {
             return term.clone();

@@ -19,7 +19,7 @@ const MAX_SIZE: u32 = 50_000;
 /// Most different terms of a table or of one of its functions.
 const MAX_TERMS: usize = 100_000;
 
-/// How many expressions may be open at once while names and references are
+/// Most expressions that may be open at once while names and references are
 /// followed. An unoptimised build needs some 10 KiB of stack for each, of the
 /// 2 MiB that a thread has.
 const MAX_OPEN: u32 = 100;
@@ -37,7 +37,7 @@ pub(super) enum Term {
     Record(Vec<(String, ExprId)>),
 }
 
-/// What an expression is expected to be; guides bare level names and lists.
+/// The expectation of an expression; guides bare level names and lists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Expected {
     Anything,

@@ -1,4 +1,4 @@
-//! What lowering accepts, and what it says of what it does not.
+//! Tables that lowering accepts, and refusals of others.
 
 use super::*;
 use crate::diag::Source;

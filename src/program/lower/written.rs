@@ -1,4 +1,4 @@
-//! What a table says that its meaning does not keep, for findings about how it is written.
+//! The parts of a table that its meaning does not keep, for findings about the way it is written.
 
 use std::collections::HashSet;
 

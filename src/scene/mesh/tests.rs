@@ -1,4 +1,4 @@
-//! What is read of every mesh in `tests/meshes`.
+//! Readings of every mesh in `tests/meshes`.
 //!
 //! `NAME.txt` beside a mesh is what becomes of it: its triangles, with their area and extent, or the refusal. A new mesh
 //! needs no Rust: put it there, run this test with `INSTA_UPDATE=always`, and read what was written.
@@ -16,7 +16,7 @@ fn meshes() -> Vec<PathBuf> {
     paths
 }
 
-/// What is read of a mesh, in words.
+/// The reading of a mesh, in words.
 fn described(path: &Path) -> String {
     let triangles = match triangles(path) {
         Ok(triangles) => triangles,

@@ -24,7 +24,7 @@ enum Quantity {
     Position(Axis),
     /// Place in the texel.
     Place(Axis),
-    /// Whether the discontinuity along an axis dominates.
+    /// True if the discontinuity along an axis dominates.
     Dominance(Axis),
     /// Discontinuity of a neighbouring texel across the way to it.
     Neighbour(Axis, usize),
@@ -88,7 +88,7 @@ impl Quantity {
 pub struct Vocabulary<'p> {
     program: &'p Program,
     inputs: Vec<(Quantity, Vec<u8>)>,
-    /// Whether the table tells entering from exiting; otherwise it speaks of lit fragments only.
+    /// True if the table tells entering from exiting; otherwise it speaks of lit fragments only.
     has_kind: bool,
 }
 
@@ -132,7 +132,7 @@ impl<'p> Vocabulary<'p> {
         self.program
     }
 
-    /// Whether the table is asked about shadowed fragments too. A table that is not leaves them in shadow.
+    /// Returns whether the table is asked about shadowed fragments too. A table that is not leaves them in shadow.
     pub(crate) fn has_kind(&self) -> bool {
         self.has_kind
     }

@@ -30,12 +30,12 @@ impl Sides {
     pub(crate) const BOTH: Sides = Sides { small: true, large: true };
     pub(crate) const NONE: Sides = Sides { small: false, large: false };
 
-    /// Whether there is any.
+    /// Returns whether there is any.
     pub(crate) fn any(self) -> bool {
         self.small || self.large
     }
 
-    /// Whether there is exactly one.
+    /// Returns whether there is exactly one.
     pub(crate) fn one(self) -> bool {
         self.small != self.large
     }
@@ -76,7 +76,7 @@ impl Axis {
 pub(crate) struct End {
     /// Number of the end texel, the neighbour being 1.
     pub(crate) steps: u32,
-    /// Whether the texel is opposite; otherwise it lost the discontinuity.
+    /// True if the texel is opposite; otherwise it lost the discontinuity.
     pub(crate) positive: bool,
 }
 
@@ -92,7 +92,7 @@ pub(crate) struct Probe<'a> {
     texel: [i32; 2],
     /// Place of the fragment in its texel, 0 at the left and at the top border.
     pub(crate) place: [f32; 2],
-    /// Whether the fragment passes the depth test.
+    /// True if the fragment passes the depth test.
     pub(crate) lit: bool,
     settings: Settings,
 }
@@ -126,7 +126,7 @@ impl<'a> Probe<'a> {
         self.is_lit(at, 0.0) != self.lit
     }
 
-    /// Whether all four neighbours of a texel have the state opposite to its own.
+    /// Returns whether all four neighbours of a texel have the state opposite to its own.
     fn isolated(&self, at: Step) -> bool {
         let own = self.opposite(at);
         [LEFT, RIGHT, TOP, BOTTOM].into_iter().all(|step| self.opposite(plus(at, step, 1)) != own)

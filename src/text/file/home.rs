@@ -199,7 +199,7 @@ mod tests {
         names
     }
 
-    /// What a process leaves that is killed anywhere between the first and the last step.
+    /// A process that is killed anywhere between the first and the last step leaves nothing half done.
     #[test]
     fn whatever_was_begun_comes_to_its_end() {
         for (journal, made, expected) in [

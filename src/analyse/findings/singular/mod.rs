@@ -48,7 +48,7 @@ pub struct Singularity {
     pub divisor: ExprId,
     /// One value per input.
     pub point: Vec<Value>,
-    /// What `f32` gives there.
+    /// The result there in `f32`.
     pub result: Vec<f64>,
     /// The limit, if there is one.
     pub limit: Option<Vec<f64>>,
@@ -89,12 +89,12 @@ pub fn singularities(program: &Program) -> Vec<Singularity> {
     found.into_values().collect()
 }
 
-/// How many points to begin with: a search along every input is expensive.
+/// The number of points to begin with: a search along every input is expensive.
 fn tries(zero: &Zero) -> usize {
     if matches!(zero, Zero::Somewhere(_)) { points::BASES } else { 100 * points::BASES }
 }
 
-/// Whether the program divides by this expression there, and it is zero.
+/// Returns whether the program divides by this expression there, and it is zero.
 fn fails_at(program: &Program, divisor: ExprId, point: &[Value]) -> bool {
     let trace = Trace::<f32>::run(program, point);
     let divides = |expr: &ExprId| {

@@ -21,7 +21,7 @@ pub fn inside(program: &Program, count: usize) -> Vec<Vec<Value>> {
     drawn(program, count * DRAWS).filter(|point| holds(program, point)).take(count).collect()
 }
 
-/// Whether the declared conditions hold at a point.
+/// Returns whether the declared conditions hold at a point.
 pub(super) fn holds(program: &Program, point: &[Value]) -> bool {
     program.assumptions.iter().all(|assumption| Trace::<f64>::condition(program, point, assumption.condition))
 }

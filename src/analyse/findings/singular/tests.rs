@@ -1,4 +1,4 @@
-//! What is found in formulas as they are printed.
+//! Findings in formulas as they are printed.
 
 use crate::analyse::found;
 

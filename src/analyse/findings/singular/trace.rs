@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::program::{Cond, CondId, ExprId, InputId, Node, Program, Real, Value};
 
-/// What an evaluation came across.
+/// The terms that an evaluation came across, with their values.
 #[derive(Debug)]
 pub(super) struct Trace<'p, T> {
     program: &'p Program,
@@ -33,7 +33,7 @@ impl<'p, T: Real> Trace<'p, T> {
         trace.number(expr)
     }
 
-    /// Whether a condition holds at a point.
+    /// Returns whether a condition holds at a point.
     pub(super) fn condition(program: &'p Program, point: &'p [Value], condition: CondId) -> bool {
         let mut trace = Self { program, point, order: Vec::new(), values: HashMap::new(), result: Vec::new() };
         trace.holds(condition)

@@ -1,4 +1,4 @@
-//! Where in the domain an expression can be zero.
+//! The places of the domain where an expression can be zero.
 //!
 //! A product is zero where a factor is. An affine form is solved for one of its
 //! inputs. Anything else is searched: along every input for a change of sign,

@@ -16,7 +16,7 @@ use self::accessor::{Accessors, Kind};
 use self::document::{Document, Node, Primitive};
 use super::{Assembly, Broken, Result, Triangle, no_faces};
 
-/// What helps against most mistakes.
+/// The help against most mistakes.
 const EXPORT: &str = "it was read as glTF; export the mesh again";
 
 /// Extensions that say nothing about the shape of a surface, by how they begin.
