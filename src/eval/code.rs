@@ -254,6 +254,7 @@ fn unary<T: Real>(op: UnaryOp, out: &mut [T], a: Argument<'_, T>) {
     }
 }
 
+#[allow(clippy::wildcard_enum_match_arm, reason = "the arms with a literal are for speed and change no result")]
 fn binary<T: Real>(op: BinaryOp, out: &mut [T], a: Argument<'_, T>, b: Argument<'_, T>) {
     match op {
         BinaryOp::Add => map2(out, a, b, |a, b| T::binary(BinaryOp::Add, a, b)),
@@ -263,7 +264,7 @@ fn binary<T: Real>(op: BinaryOp, out: &mut [T], a: Argument<'_, T>, b: Argument<
         BinaryOp::Max => map2(out, a, b, |a, b| T::binary(BinaryOp::Max, a, b)),
         BinaryOp::Min => map2(out, a, b, |a, b| T::binary(BinaryOp::Min, a, b)),
         BinaryOp::Step => map2(out, a, b, |a, b| T::binary(BinaryOp::Step, a, b)),
-        BinaryOp::Remainder | BinaryOp::Atan2 | BinaryOp::Pow => map2(out, a, b, |a, b| T::binary(op, a, b)),
+        _ => map2(out, a, b, |a, b| T::binary(op, a, b)),
     }
 }
 
@@ -277,10 +278,11 @@ fn compare<T: Real>(op: Comparison, out: &mut [T], a: Argument<'_, T>, b: Argume
     }
 }
 
+#[allow(clippy::wildcard_enum_match_arm, reason = "the arms with a literal are for speed and change no result")]
 fn ternary<T: Real>(op: TernaryOp, out: &mut [T], a: Argument<'_, T>, b: Argument<'_, T>, c: Argument<'_, T>) {
     match op {
         TernaryOp::Clamp => map3(out, a, b, c, |a, b, c| T::ternary(TernaryOp::Clamp, a, b, c)),
         TernaryOp::Mix => map3(out, a, b, c, |a, b, c| T::ternary(TernaryOp::Mix, a, b, c)),
-        TernaryOp::Fma | TernaryOp::Smoothstep => map3(out, a, b, c, |a, b, c| T::ternary(op, a, b, c)),
+        _ => map3(out, a, b, c, |a, b, c| T::ternary(op, a, b, c)),
     }
 }

@@ -40,9 +40,9 @@ use crate::table::{Allow, Erratum, HitPolicy, Table};
 
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 pub use lower::LevelTerm;
-pub use operators::{BinaryOp, TernaryOp, UnaryOp};
+pub use operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 pub use ops::Real;
-pub use pool::{Comparison, Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool};
+pub use pool::{Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool};
 pub(crate) use reachable::can_occur;
 pub use reachable::reachable;
 #[cfg(test)]

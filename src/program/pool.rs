@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::operators::{BinaryOp, TernaryOp, UnaryOp};
+use super::operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 use super::{InputId, Real};
 
 /// An expression in a [`Pool`].
@@ -89,15 +89,6 @@ impl LevelSet {
             Some(level)
         })
     }
-}
-
-/// Comparison of two numbers. `a > b` is stored as `b < a`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Comparison {
-    Less,
-    LessEqual,
-    Equal,
 }
 
 /// A condition. Operands are tested from left to right, and only as far as needed.
@@ -346,12 +337,9 @@ impl Pool {
                 (_, Some(a), Some(b)) => agree(op.apply(a, b), f32::binary(op, a as f32, b as f32)),
                 _ => true,
             },
-            Node::Ternary(op, a, b, c) => match (op, known(a), known(b), known(c)) {
-                (TernaryOp::Clamp, _, Some(lo), Some(hi)) if lo > hi => false,
-                (TernaryOp::Smoothstep, Some(lo), Some(hi), _) if lo >= hi => false,
-                (_, Some(a), Some(b), Some(c)) => {
-                    agree(op.apply(a, b, c), f32::ternary(op, a as f32, b as f32, c as f32))
-                }
+            Node::Ternary(op, a, b, c) => match [a, b, c].map(known) {
+                operands if op.misordered(operands).is_some() => false,
+                [Some(a), Some(b), Some(c)] => agree(op.apply(a, b, c), f32::ternary(op, a as f32, b as f32, c as f32)),
                 _ => true,
             },
             Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => true,

@@ -152,14 +152,7 @@ impl Lowering<'_> {
         }
         let mut parts = Vec::new();
         for ((a, b), c) in a.into_iter().zip(b).zip(c) {
-            let bounds = match op {
-                TernaryOp::Clamp => (self.pool.constant(b), self.pool.constant(c)),
-                TernaryOp::Smoothstep => (self.pool.constant(a), self.pool.constant(b)),
-                TernaryOp::Fma | TernaryOp::Mix => (None, None),
-            };
-            if let (Some(lo), Some(hi)) = bounds
-                && (lo > hi || (lo == hi && op == TernaryOp::Smoothstep))
-            {
+            if let Some((lo, hi)) = op.misordered([a, b, c].map(|part| self.pool.constant(part))) {
                 return Err(Diagnostic::error(
                     codes::DOMAIN,
                     format!("the lower bound {lo} is not below the upper bound {hi}"),

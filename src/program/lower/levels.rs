@@ -9,7 +9,8 @@ use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::InputId;
-use crate::program::pool::{Comparison, CondId, ExprId, LevelSet};
+use crate::program::operators::Comparison;
+use crate::program::pool::{CondId, ExprId, LevelSet};
 use crate::table::expr::{Expr, ExprKind};
 use crate::text::closest::nearest;
 

@@ -9,8 +9,9 @@ use super::scope::Env;
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::LevelTerm;
+use crate::program::operators::Comparison;
 use crate::program::operators::{BinaryOp, UnaryOp};
-use crate::program::pool::{self, Comparison, CondId, ExprId};
+use crate::program::pool::{self, CondId, ExprId};
 use crate::table::expr::{self as ast, Expr, ExprKind};
 
 /// Deepest and largest value of one row, references included.
