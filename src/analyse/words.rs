@@ -2,7 +2,8 @@
 //! conditions, formulas, lists.
 
 use super::sets::Set;
-use super::sets::space::{Space, Witness};
+use super::sets::space::Space;
+use super::values::point::Witness;
 use crate::program::normal::{Affine, Term};
 use crate::program::print::Printer;
 use crate::program::rational::Rational;

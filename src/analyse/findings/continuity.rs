@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 
 use super::{Analysis, Run};
 use crate::analyse::sets::Set;
-use crate::analyse::sets::space::{Space, View, Witness};
+use crate::analyse::sets::space::{Space, View};
 use crate::analyse::sets::study::{Piece, Study};
-use crate::analyse::values::point::Point;
+use crate::analyse::values::point::{Point, Witness};
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
 use crate::program::{Continuity, ContinuityKind, ExprId, InputId, InputSet, LevelSet, LevelTerm, Program, Symmetry};

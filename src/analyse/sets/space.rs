@@ -26,8 +26,6 @@ use crate::program::{
     BinaryOp, Comparison, Cond, CondId, Domain, ExprId, InputId, LevelSet, LevelTerm, Node, Pool, Program, TernaryOp,
 };
 
-pub(in crate::analyse) use points::Witness;
-
 /// Most selection-free values that one expression may have.
 const MAX_PARTS: usize = 1024;
 

@@ -3,8 +3,18 @@
 //! Points of findings have short binary fractions, so that for tables that are
 //! piecewise linear nothing is rounded here.
 
-use crate::analyse::sets::space::Witness;
 use crate::program::{Comparison, Cond, CondId, ExprId, InputId, LevelTerm, Node, Pool, Program, Symmetry, Value};
+
+/// Inputs that reach some set.
+#[derive(Debug, Clone)]
+pub(in crate::analyse) struct Witness {
+    /// The levels that matter.
+    pub(in crate::analyse) levels: Vec<Option<u8>>,
+    /// A number for each continuous input.
+    pub(in crate::analyse) numbers: Vec<Option<f64>>,
+    /// Whether these very inputs reach the set. Otherwise nothing is known of the numbers.
+    pub(in crate::analyse) certain: bool,
+}
 
 /// A value for every input.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::{Question, Space, code};
 use crate::analyse::sets::Set;
-use crate::analyse::values::point::Point;
+use crate::analyse::values::point::{Point, Witness};
 use crate::analyse::values::real::Boxed;
 use crate::points::random::Random;
 use crate::program::normal::{Affine, Term};
@@ -293,15 +293,4 @@ impl Space<'_> {
         };
         self.program.inputs.iter().enumerate().map(number).collect()
     }
-}
-
-/// Inputs that reach some set.
-#[derive(Debug, Clone)]
-pub(in crate::analyse) struct Witness {
-    /// The levels that matter.
-    pub(in crate::analyse) levels: Vec<Option<u8>>,
-    /// A number for each continuous input.
-    pub(in crate::analyse) numbers: Vec<Option<f64>>,
-    /// Whether these very inputs reach the set. Otherwise nothing is known of the numbers.
-    pub(in crate::analyse) certain: bool,
 }
