@@ -2,8 +2,6 @@
 
 use std::f64::consts::PI;
 
-use super::{BinaryOp, Image, TernaryOp, UnaryOp};
-
 /// An interval, both ends included.
 pub type Bounds = (f64, f64);
 
@@ -13,19 +11,37 @@ pub type Bounded = (Bounds, Option<&'static str>);
 /// Everything: what is left once an operation failed.
 pub const ANY: Bounds = (f64::NEG_INFINITY, f64::INFINITY);
 
-impl UnaryOp {
-    /// The image of an interval.
-    pub fn image(self, (lo, hi): Bounds) -> Bounded {
-        // What failed inside has been reported already.
-        if lo == f64::NEG_INFINITY || hi == f64::INFINITY {
-            return (ANY, None);
-        }
-        let row = self.row();
-        if let Some(operands) = row.operands.filter(|operands| !operands.contain(lo, hi)) {
-            return (ANY, Some(operands.outside));
-        }
-        let of = row.wide;
-        match row.image {
+/// The course of a function of one number, from which the image of an interval follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Image {
+    /// Never decreases.
+    Increasing,
+    /// Never decreases, and has whole results only.
+    Steps,
+    /// Never increases.
+    Decreasing,
+    /// The same for `-a` as for `a`, and never decreases from 0 on.
+    Valley,
+    /// Falls from 1 at `peak` to -1 half a turn later, and so on with every turn.
+    Wave {
+        /// A place where it is 1.
+        peak: f64,
+    },
+    /// Increases between poles that are half a turn apart.
+    Poles {
+        /// The place of a pole.
+        pole: f64,
+        /// What an operand there is, as the end of a sentence.
+        what: &'static str,
+    },
+    /// The distance from the whole number below.
+    Sawtooth,
+}
+
+impl Image {
+    /// The image of an interval under a function with this course.
+    pub(super) fn of(self, of: fn(f64) -> f64, (lo, hi): Bounds) -> Bounded {
+        match self {
             Image::Increasing | Image::Steps => finite(of(lo), of(hi)),
             Image::Decreasing => finite(of(hi), of(lo)),
             Image::Valley => {
@@ -40,21 +56,6 @@ impl UnaryOp {
             Image::Sawtooth if lo.floor() == hi.floor() => ((of(lo), of(hi)), None),
             Image::Sawtooth => ((0.0, 1.0), None),
         }
-    }
-}
-
-impl BinaryOp {
-    /// The image of two intervals.
-    pub fn image(self, a: Bounds, b: Bounds) -> Bounded {
-        // What failed inside has been reported already.
-        if a == ANY || b == ANY { (ANY, None) } else { (self.row().image)(a, b) }
-    }
-}
-
-impl TernaryOp {
-    /// The image of three intervals.
-    pub fn image(self, a: Bounds, b: Bounds, c: Bounds) -> Bounded {
-        (self.row().image)(a, b, c)
     }
 }
 
@@ -180,60 +181,4 @@ pub(super) fn smoothstep(lo: Bounds, hi: Bounds, a: Bounds) -> Bounded {
         return (ANY, Some("can have a first bound that is not below the second"));
     }
     ((0.0, 1.0), None)
-}
-
-#[cfg(test)]
-mod tests {
-    use proptest::prelude::*;
-
-    use super::*;
-
-    /// An operand: an interval, and points of it.
-    fn operand() -> impl Strategy<Value = (Bounds, Vec<f64>)> {
-        let start =
-            prop_oneof![6 => -4.0_f64..4.0, 2 => -100.0_f64..100.0, 1 => Just(0.0), 1 => Just(1.0), 1 => -1e6_f64..1e6];
-        let width = prop_oneof![1 => Just(0.0), 3 => 0.0_f64..1.0, 3 => 0.0_f64..10.0, 1 => 0.0_f64..1000.0];
-        (start, width, prop::collection::vec(0.0_f64..=1.0, 6)).prop_map(|(lo, width, shares)| {
-            let hi = lo + width;
-            let points = shares.into_iter().map(|share| (lo + share * width).clamp(lo, hi));
-            ((lo, hi), points.chain([lo, hi]).collect())
-        })
-    }
-
-    /// Fails if a value at a point is outside of an image that is said to be one.
-    fn contains(image: Bounded, value: f64, what: impl Fn() -> String) -> Result<(), TestCaseError> {
-        let ((lo, hi), trouble) = image;
-        // Of the portable library no function is known to be monotone to the last digit.
-        let slack = 1e-12 * value.abs().max(1.0);
-        let inside = lo - slack <= value && value <= hi + slack;
-        prop_assert!(trouble.is_some() || inside, "{}: {value} is not in {lo} to {hi}", what());
-        Ok(())
-    }
-
-    proptest! {
-        #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
-
-        /// The image of an interval contains the value at every point of it, for every operator, or trouble is reported.
-        #[test]
-        fn images_contain_the_values((x, xs) in operand(), (y, ys) in operand(), (z, zs) in operand()) {
-            for op in UnaryOp::ALL.iter().copied() {
-                let image = op.image(x);
-                for a in &xs {
-                    contains(image, op.apply(*a), || format!("{op:?} of {a} in {x:?}"))?;
-                }
-            }
-            for op in BinaryOp::ALL.iter().copied() {
-                let image = op.image(x, y);
-                for (a, b) in xs.iter().flat_map(|a| ys.iter().map(move |b| (*a, *b))) {
-                    contains(image, op.apply(a, b), || format!("{op:?} of {a} in {x:?}, {b} in {y:?}"))?;
-                }
-            }
-            for op in TernaryOp::ALL.iter().copied() {
-                let image = op.image(x, y, z);
-                for (a, (b, c)) in xs.iter().flat_map(|a| ys.iter().zip(&zs).map(move |rest| (*a, rest))) {
-                    contains(image, op.apply(a, *b, *c), || format!("{op:?} of {a} in {x:?}, {b} in {y:?}, {c} in {z:?}"))?;
-                }
-            }
-        }
-    }
 }

@@ -1,35 +1,8 @@
 //! What the table of operators says of each: a row per operator, of a kind per arity.
 
-use super::images::{Bounded, Bounds};
+use super::images::{Bounded, Bounds, Image};
 use super::{Notation, Spelling, Spellings, UnaryOp};
 use crate::table::expr as ast;
-
-/// The course of a function of one number, from which the image of an interval follows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Image {
-    /// Never decreases.
-    Increasing,
-    /// Never decreases, and has whole results only.
-    Steps,
-    /// Never increases.
-    Decreasing,
-    /// The same for `-a` as for `a`, and never decreases from 0 on.
-    Valley,
-    /// Falls from 1 at `peak` to -1 half a turn later, and so on with every turn.
-    Wave {
-        /// A place where it is 1.
-        peak: f64,
-    },
-    /// Increases between poles that are half a turn apart.
-    Poles {
-        /// The place of a pole.
-        pole: f64,
-        /// What an operand there is, as the end of a sentence.
-        what: &'static str,
-    },
-    /// The distance from the whole number below.
-    Sawtooth,
-}
 
 /// The operands for which there is a result.
 #[derive(Debug, Clone, Copy, PartialEq)]

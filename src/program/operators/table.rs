@@ -3,8 +3,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::arithmetic::{larger, portable_sincos, sign, smaller, smoothstep};
-use super::images;
-use super::row::{Ascending, Binary, BinaryAlgebra, Image, Operands, Ternary, TernaryAlgebra, Unary, UnaryAlgebra};
+use super::images::{self, Image};
+use super::row::{Ascending, Binary, BinaryAlgebra, Operands, Ternary, TernaryAlgebra, Unary, UnaryAlgebra};
 use super::{Notation, Spelling, Spellings};
 use crate::table::expr as ast;
 
