@@ -8,7 +8,7 @@
 use std::ops::Neg;
 
 use num_rational::Ratio;
-use num_traits::{CheckedAdd, CheckedDiv, CheckedMul, CheckedSub, Signed, Zero};
+use num_traits::{CheckedAdd, CheckedMul, CheckedSub, Signed, Zero};
 
 /// A fraction in lowest terms; its numerator is never the smallest `i128`, so that it has a negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -17,7 +17,6 @@ pub(crate) struct Rational(Ratio<i128>);
 impl Rational {
     pub(crate) const ZERO: Self = Self(Ratio::new_raw(0, 1));
     pub(crate) const ONE: Self = Self(Ratio::new_raw(1, 1));
-    pub(crate) const HALF: Self = Self(Ratio::new_raw(1, 2));
 
     /// A whole number.
     pub(crate) fn whole(value: i64) -> Self {
@@ -54,14 +53,6 @@ impl Rational {
         }
     }
 
-    /// The decimal that a double is written as in its shortest form, exactly: 1/10 of `0.1`.
-    pub(crate) fn decimal(value: f64) -> Option<Self> {
-        let text = value.to_string();
-        let (whole, places) = text.split_once('.').unwrap_or((&text, ""));
-        let digits = format!("{whole}{places}").parse().ok()?;
-        Self::fraction(digits, 10_i128.checked_pow(u32::try_from(places.len()).ok()?)?)
-    }
-
     /// The nearest double, or one beside it.
     pub(crate) fn to_f64(self) -> f64 {
         *self.0.numer() as f64 / *self.0.denom() as f64
@@ -88,11 +79,6 @@ impl Rational {
         self.0.checked_mul(&other.0).and_then(Self::kept)
     }
 
-    /// The quotient; `None` also if the divisor is zero.
-    pub(crate) fn over(self, other: Self) -> Option<Self> {
-        if other.is_zero() { None } else { self.0.checked_div(&other.0).and_then(Self::kept) }
-    }
-
     /// One divided by the number; `None` for zero.
     pub(crate) fn reciprocal(self) -> Option<Self> {
         Self::fraction(self.denominator(), self.numerator())
@@ -100,11 +86,6 @@ impl Rational {
 
     pub(crate) fn abs(self) -> Self {
         Self(self.0.abs())
-    }
-
-    /// The whole number it is, if it is one.
-    pub(crate) fn integer(self) -> Option<i128> {
-        (self.denominator() == 1).then_some(self.numerator())
     }
 
     /// The nearest whole number.
@@ -126,6 +107,30 @@ impl Rational {
 
     fn kept(value: Ratio<i128>) -> Option<Self> {
         (*value.numer() != i128::MIN).then_some(Self(value))
+    }
+}
+
+/// What rewriting formulas needs besides.
+#[cfg(any(feature = "precise", test))]
+impl Rational {
+    pub(crate) const HALF: Self = Self(Ratio::new_raw(1, 2));
+
+    /// The decimal that a double is written as in its shortest form, exactly: 1/10 of `0.1`.
+    pub(crate) fn decimal(value: f64) -> Option<Self> {
+        let text = value.to_string();
+        let (whole, places) = text.split_once('.').unwrap_or((&text, ""));
+        let digits = format!("{whole}{places}").parse().ok()?;
+        Self::fraction(digits, 10_i128.checked_pow(u32::try_from(places.len()).ok()?)?)
+    }
+
+    /// The quotient; `None` also if the divisor is zero.
+    pub(crate) fn over(self, other: Self) -> Option<Self> {
+        other.reciprocal().and_then(|reciprocal| self.times(reciprocal))
+    }
+
+    /// The whole number it is, if it is one.
+    pub(crate) fn integer(self) -> Option<i128> {
+        (self.denominator() == 1).then_some(self.numerator())
     }
 }
 
