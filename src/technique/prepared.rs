@@ -28,7 +28,7 @@ pub trait Prepared<'s> {
     /// Goes on to another frame, with what was compiled already where that fits.
     ///
     /// # Errors
-    /// As [`Technique::prepare`](super::Technique::prepare).
+    /// As [`Technique::prepare`].
     fn set_frame(&mut self, frame: &Frame<'s>) -> Result<(), Failure>;
 
     /// The table that the layers of cases and states refer to.
