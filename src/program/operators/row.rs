@@ -182,17 +182,7 @@ impl Binary {
         algebra: BinaryAlgebra,
         image: fn(Bounds, Bounds) -> Bounded,
     ) -> Self {
-        Self {
-            notation: Notation::Infix(op),
-            doc: "",
-            wide,
-            narrow: None,
-            image,
-            algebra,
-            is_plain: false,
-            is_exponential: false,
-            spellings: Spellings::SYMBOL,
-        }
+        Self::bare(Notation::Infix(op), "", wide, algebra, image, Spellings::SYMBOL)
     }
 
     pub(super) const fn function(
@@ -204,17 +194,20 @@ impl Binary {
         image: fn(Bounds, Bounds) -> Bounded,
         rust: Spelling,
     ) -> Self {
-        Self {
-            notation: Notation::Function(name, arguments),
-            doc,
-            wide,
-            narrow: None,
-            image,
-            algebra,
-            is_plain: false,
-            is_exponential: false,
-            spellings: Spellings::shared(rust),
-        }
+        Self::bare(Notation::Function(name, arguments), doc, wide, algebra, image, Spellings::shared(rust))
+    }
+
+    /// A row of which the rest is as most operators have it.
+    const fn bare(
+        notation: Notation,
+        doc: &'static str,
+        wide: fn(f64, f64) -> f64,
+        algebra: BinaryAlgebra,
+        image: fn(Bounds, Bounds) -> Bounded,
+        spellings: Spellings,
+    ) -> Self {
+        let (is_plain, is_exponential) = (false, false);
+        Self { notation, doc, wide, narrow: None, image, algebra, is_plain, is_exponential, spellings }
     }
 
     pub(super) const fn narrow(self, narrow: fn(f32, f32) -> f32) -> Self {
