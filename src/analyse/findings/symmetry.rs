@@ -313,12 +313,11 @@ fn only_assumed(study: &mut Study<'_>, group: &[Contradiction]) -> Option<Diagno
         false => format!("it takes {}", words::list(&blamed)),
     };
     let witness = study.space.witness(contradiction.set)?;
-    let differ = match witness.certain {
-        true => {
-            let at = place_at(study, &Point::of(program, &witness), contradiction.rows.0);
-            format!("otherwise they differ, for instance at {at}")
-        }
-        false => "otherwise they may differ".to_owned(),
+    let differ = if witness.certain {
+        let at = place_at(study, &Point::of(program, &witness), contradiction.rows.0);
+        format!("otherwise they differ, for instance at {at}")
+    } else {
+        "otherwise they may differ".to_owned()
     };
     Some(note.help(taken).help(differ))
 }

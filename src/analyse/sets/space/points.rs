@@ -115,8 +115,7 @@ impl Space<'_> {
         if let Some(known) = self.possible.get(&signs) {
             return *known;
         }
-        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
-        let possible = region::can_hold(self.program, with_forms);
+        let possible = region::can_hold(self.program, self.signed(&signs));
         self.possible.insert(signs, possible);
         possible
     }
@@ -128,6 +127,11 @@ impl Space<'_> {
             Question::Opaque(..) => None,
         });
         forms.collect()
+    }
+
+    /// Forms with their signs, of which both are given by number.
+    pub(super) fn signed<'a>(&'a self, signs: &'a [(usize, u8)]) -> impl Iterator<Item = (&'a Affine, Sign)> {
+        signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]))
     }
 
     /// An input that reaches a set, if one does.
@@ -149,8 +153,8 @@ impl Space<'_> {
         let answers = self.signs(rest)?;
         let signs = self.forms_of(&answers);
         let linear = |form: &Affine| form.terms.keys().all(|term| matches!(term, Term::Input(_)));
-        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
-        let point = region::point(self.program, with_forms.filter(|(form, _)| linear(form))).unwrap_or_default();
+        let point =
+            region::point(self.program, self.signed(&signs).filter(|(form, _)| linear(form))).unwrap_or_default();
         // Signs of what is linear are met by the first candidate; the rest takes luck.
         let first = self.numbers(&point);
         let inside = |numbers: &Vec<Option<f64>>| self.contains(rest, numbers);
@@ -177,26 +181,15 @@ impl Space<'_> {
         let point = Point { levels: Vec::new(), numbers };
         let mut rest = set;
         while let Some((digit, children)) = self.sets.test(rest) {
-            let (value, size) = match self.questions[digit - self.inputs_of_digits.len()] {
-                Question::Sign(form) => self.normaliser.value(&self.forms[form], &point.numbers),
+            let answer = match self.questions[digit - self.inputs_of_digits.len()] {
+                Question::Sign(form) => clear_sign(self.normaliser.value(&self.forms[form], &point.numbers)).map(code),
                 Question::Opaque(a, b) => {
                     let [a, b] = [a, b].map(|side| point.number(&self.pool, side));
-                    (b - a, a.abs() + b.abs())
+                    clear_sign((b - a, a.abs() + b.abs())).map(|sign| u8::from(sign != Sign::Positive))
                 }
             };
-            let sign = if value > MARGIN * size {
-                Sign::Positive
-            } else if value < -MARGIN * size {
-                Sign::Negative
-            } else if value.abs() <= EXACT * size {
-                Sign::Zero
-            } else {
-                return false;
-            };
-            rest = match self.questions[digit - self.inputs_of_digits.len()] {
-                Question::Sign(_) => children[usize::from(code(sign))],
-                Question::Opaque(..) => children[usize::from(sign != Sign::Positive)],
-            };
+            let Some(answer) = answer else { return false };
+            rest = children[usize::from(answer)];
         }
         !rest.is_empty()
     }
@@ -292,5 +285,16 @@ impl Space<'_> {
             Some(chosen.to_f64())
         };
         self.program.inputs.iter().enumerate().map(number).collect()
+    }
+}
+
+/// The sign of a sum, given with the sum of the magnitudes of its terms, unless it is too close to call.
+fn clear_sign((value, size): (f64, f64)) -> Option<Sign> {
+    if value > MARGIN * size {
+        Some(Sign::Positive)
+    } else if value < -MARGIN * size {
+        Some(Sign::Negative)
+    } else {
+        (value.abs() <= EXACT * size).then_some(Sign::Zero)
     }
 }

@@ -4,7 +4,7 @@ use super::Space;
 use crate::analyse::sets::Set;
 use crate::analyse::values::point::Point;
 use crate::points::random::Random;
-use crate::program::region::{self, Sign};
+use crate::program::region;
 use crate::program::{Domain, InputId};
 
 impl Space<'_> {
@@ -24,8 +24,7 @@ impl Space<'_> {
         }
         let answers = self.signs(rest)?;
         let signs = self.forms_of(&answers);
-        let with_forms = signs.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
-        let point = region::point(program, with_forms).unwrap_or_default();
+        let point = region::point(program, self.signed(&signs)).unwrap_or_default();
         let mut numbers: Vec<f64> = self.numbers(&point).into_iter().map(Option::unwrap_or_default).collect();
         for (id, input) in program.input_ids() {
             if let (Domain::Continuous { lo, hi, .. }, false) = (&input.domain, point.contains_key(&id)) {
