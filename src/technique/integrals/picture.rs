@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 use std::iter::repeat_n;
+use std::ops::Range;
 
 use glam::DVec3;
 use image::{Rgb, RgbImage};
@@ -82,14 +83,13 @@ fn shade_some(
     surfaces: &[Option<Surface>],
     shaded: &mut Shaded,
 ) -> Result<(), Failure> {
-    let Divided { all, ends } = divided(scene, settings, surfaces);
+    let Divided { all, parts } = divided(scene, settings, surfaces);
     let lines = tables.lines(interpreters, &tables.line_inputs(&all.cells, &scene.lobes)?)?;
     let moments = tables.moments(interpreters, &tables.moment_inputs(&all.edges)?)?;
-    let (mut cell, mut edge) = (0, 0);
-    for (surface, (last_cell, last_edge)) in surfaces.iter().zip(ends) {
+    for (surface, (cells, edges)) in surfaces.iter().zip(parts) {
         let light = surface.as_ref().map(|surface| {
             let mut sum = DVec3::ZERO;
-            for (edge, moments) in all.edges[edge..last_edge].iter().zip(&moments[edge..last_edge]) {
+            for (edge, moments) in all.edges[edges.clone()].iter().zip(&moments[edges.clone()]) {
                 let (along, tensor) = (moments.first.dot(surface.normal), moments.times(surface.normal));
                 for (index, lobe) in scene.lobes.iter().enumerate() {
                     let (alpha, beta) = lines[edge.cell * scene.lobes.len() + index];
@@ -98,8 +98,7 @@ fn shade_some(
             }
             surface.sent(sum)
         });
-        shaded.push(light, (last_cell - cell) as u32, (last_edge - edge) as u32);
-        (cell, edge) = (last_cell, last_edge);
+        shaded.push(light, cells.len() as u32, edges.len() as u32);
     }
     Ok(())
 }
@@ -107,8 +106,8 @@ fn shade_some(
 /// The divisions at some surfaces, in one list, so that each table is evaluated once.
 struct Divided {
     all: Division,
-    /// For each surface the ends of its cells and of its edges.
-    ends: Vec<(usize, usize)>,
+    /// The cells and the edges of each surface.
+    parts: Vec<(Range<usize>, Range<usize>)>,
 }
 
 fn divided(scene: &Surroundings, settings: &Settings, surfaces: &[Option<Surface>]) -> Divided {
@@ -118,14 +117,14 @@ fn divided(scene: &Surroundings, settings: &Settings, surfaces: &[Option<Surface
     };
     let divisions: Vec<Division> = surfaces.par_iter().map(division).collect();
     let mut all = Division::default();
-    let mut ends = Vec::with_capacity(surfaces.len());
+    let mut parts = Vec::with_capacity(surfaces.len());
     for division in divisions {
-        let first = all.cells.len();
+        let (first, first_edge) = (all.cells.len(), all.edges.len());
         all.edges.extend(division.edges.into_iter().map(|edge| Edge { cell: edge.cell + first, ..edge }));
         all.cells.extend(division.cells);
-        ends.push((all.cells.len(), all.edges.len()));
+        parts.push((first..all.cells.len(), first_edge..all.edges.len()));
     }
-    Divided { all, ends }
+    Divided { all, parts }
 }
 
 /// Most rows of a capture: about a hundred thousand pixels have as many edges.
@@ -144,15 +143,13 @@ pub(super) fn inputs<'p>(
     let mut all = tables.nothing();
     let mut pixel = 0..;
     for portion in surfaces.chunks(PORTION) {
-        let Divided { all: division, ends } = divided(scene, settings, portion);
+        let Divided { all: division, parts } = divided(scene, settings, portion);
         let lines = tables.line_inputs(&division.cells, &scene.lobes)?;
         let moments = tables.moment_inputs(&division.edges)?;
-        let (mut cell, mut edge) = (0, 0);
         let mut pixels = [Vec::new(), Vec::new()];
-        for ((last_cell, last_edge), pixel) in ends.into_iter().zip(pixel.by_ref()) {
-            pixels[0].extend(repeat_n(pixel, last_edge - edge));
-            pixels[1].extend(repeat_n(pixel, (last_cell - cell) * scene.lobes.len()));
-            (cell, edge) = (last_cell, last_edge);
+        for ((cells, edges), pixel) in parts.into_iter().zip(pixel.by_ref()) {
+            pixels[0].extend(repeat_n(pixel, edges.len()));
+            pixels[1].extend(repeat_n(pixel, cells.len() * scene.lobes.len()));
         }
         for (inputs, (columns, pixels)) in
             all.iter_mut().zip([(&moments, &pixels[0]), (&lines, &pixels[1]), (&lines, &pixels[1])])
