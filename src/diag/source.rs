@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use codespan_reporting::files::{self, Files};
 
-use super::visible::{in_place, visible};
+use super::visible::{in_place, is_inert, visible};
 
 /// A range of bytes in a [`Source`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -53,6 +53,8 @@ pub struct Source {
     pub text: String,
     /// The start of each line; generated code names many lines.
     lines: Vec<usize>,
+    /// Set when nothing in the text acts, so that each message can quote it as it is.
+    is_inert: bool,
 }
 
 impl Source {
@@ -65,7 +67,8 @@ impl Source {
         };
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         let lines = [0].into_iter().chain(ends.map(|(end, _)| end + 1)).collect();
-        Arc::new(Self { name: name.into(), text, lines })
+        let is_inert = is_inert(&text);
+        Arc::new(Self { name: name.into(), text, lines, is_inert })
     }
 
     /// Line and column of a byte offset, both counted from 1, columns in characters.
@@ -112,7 +115,8 @@ pub(super) struct Excerpts<'s> {
 
 impl<'s> Excerpts<'s> {
     pub(super) fn new(source: &'s Source) -> Self {
-        Self { name: visible(&source.name), text: in_place(&source.text), lines: &source.lines }
+        let text = if source.is_inert { Cow::Borrowed(&*source.text) } else { in_place(&source.text) };
+        Self { name: visible(&source.name), text, lines: &source.lines }
     }
 }
 

@@ -36,11 +36,14 @@ pub(crate) fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
+/// Returns whether nothing in a text acts. The end of a line on some systems is no harm: excerpts are cut before it.
+pub(super) fn is_inert(text: &str) -> bool {
+    !text.contains(|c| c != '\r' && acts(c)) && text.split('\r').skip(1).all(|rest| rest.starts_with('\n'))
+}
+
 /// A text with a stand-in of as many bytes for each such character, so that places in it stay what they are.
 pub(super) fn in_place(text: &str) -> Cow<'_, str> {
-    // The end of a line on some systems is no harm; excerpts are cut before it.
-    let bare = |text: &str| text.contains(|c| c != '\r' && acts(c)) || text.replace("\r\n", "\n").contains('\r');
-    if !bare(text) {
+    if is_inert(text) {
         return Cow::Borrowed(text);
     }
     let mut shown = String::with_capacity(text.len());
