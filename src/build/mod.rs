@@ -251,7 +251,6 @@ pub fn write(directory: &Path, files: &[Artifact]) -> Result<usize, Failure> {
         // No directory for nothing.
         return Ok(0);
     }
-    std::fs::create_dir_all(directory).map_err(|error| unwritable(directory, &error))?;
     let home = Home::lock(directory)?;
     let mut pending = Vec::new();
     for file in files {

@@ -21,7 +21,7 @@ use crate::plan::Shape;
 use crate::profile::fit;
 use crate::program::Program;
 use crate::technique::Executor;
-use crate::text::file::{Home, shown, unwritable};
+use crate::text::file::{Home, shown};
 use crate::tune::{self, Kind, Options, Tuning};
 use crate::tuned::{Choice, Tuned};
 
@@ -179,7 +179,6 @@ fn progress() -> ProgressBar {
 ///
 /// The file is read again: another run may have put a choice into it since. Until it is written no other run does.
 fn keep(directory: &Path, path: &Path, choice: Choice, device: &str, mut sinks: Vec<Sink>) -> Result<()> {
-    std::fs::create_dir_all(directory).map_err(|error| unwritable(directory, &error))?;
     let home = Home::lock(directory)?;
     let mut tuned = Tuned::read(path)?.unwrap_or_else(|| Tuned::new(device));
     tuned.set(choice);

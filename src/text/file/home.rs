@@ -34,8 +34,10 @@ pub(crate) struct Home {
 }
 
 impl Home {
-    /// Waits for the directory, and brings to its end what a process began there that was interrupted.
+    /// Makes the directory if there is none, waits for it, and brings to its end what a process began there that
+    /// was interrupted.
     pub(crate) fn lock(directory: &Path) -> Result<Self, Failure> {
+        fs::create_dir_all(directory).map_err(|error| unwritable(directory, &error))?;
         let lock = File::open(directory).and_then(|file| file.lock().map(|()| file)).ok();
         let home = Self { directory: directory.to_owned(), _lock: lock };
         if let Some(set) = Set::read(&home.begun())? {
