@@ -1,11 +1,12 @@
 //! `cargo xtask`: the chores of this repository. Standard library only, so
 //! that it compiles in a second.
 
+mod kill;
 mod licences;
 
 use std::env;
 use std::ffi::OsStr;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::{Duration, Instant};
 
@@ -23,6 +24,8 @@ Usage: cargo xtask <task> [arguments]
   package                        build what would be published, from what would be in it
   bless                          rewrite generated/ and the snapshots from what the code does now
   errata                         write docs/errata.md: what the analyses find in tables as printed
+  kill [TIMES [SEED]]            kill build, fmt, render and tune at random moments, 500 each if nothing else
+                                 is said, and look at what they leave
   bench [ARGS]                   run the benchmarks; ARGS go to `cargo bench`
 ";
 
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         "package" => package(&mut steps),
         "bless" => bless(&mut steps),
         "errata" => errata(&mut steps),
+        "kill" => kill(&mut steps, rest),
         "bench" => bench(&mut steps, rest),
         "help" | "--help" | "-h" => {
             print!("{USAGE}");
@@ -191,6 +195,23 @@ fn errata(steps: &mut Steps) -> Result {
     }
     command.args(["--mistakes", "1002", "--output", "docs/errata.md"]);
     steps.run("errata", command)
+}
+
+/// What commands leave that are killed.
+fn kill(steps: &mut Steps, arguments: &[String]) -> Result {
+    let number = |index: usize, usual: u64| match arguments.get(index).map(|word| word.parse()) {
+        None => Ok(usual),
+        Some(Ok(number)) => Ok(number),
+        Some(Err(_)) => {
+            eprintln!("error: `{}` is not a whole number\n\n{USAGE}", arguments[index]);
+            Err(2)
+        }
+    };
+    let (times, seed) = (number(0, 500)?, number(1, 1)?);
+    steps.run("program", cargo(&["build", "--release"]))?;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
+    kill::run(root, &target.join("release/umbrage"), times as usize, seed)
 }
 
 /// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.
