@@ -8,7 +8,7 @@ use super::rows::{Line, OUTSIDE, Pair, Piece, Rows, is_section};
 use crate::text::tokens::Kind;
 
 /// Fields of a table whose entries are aligned.
-const ALIGNED: [&str; 7] = ["levels", "inputs", "names", "symmetries", "assume", "continuity", "constants"];
+const ALIGNED: [&str; 8] = ["levels", "inputs", "groups", "names", "symmetries", "assume", "continuity", "constants"];
 
 /// Keys, and other cells, that are wider than others by more than this form a column of their own.
 const NEAR: (usize, usize) = (6, 16);

@@ -289,7 +289,9 @@ fn place<'a>(tokens: Vec<Token<'a>>) -> (Vec<Piece<'a>>, Vec<Pair>) {
 
 fn expression<'a>(open: &'a str, inner: &str, close: &'a str) -> Option<Written<'a>> {
     let escapes = inner.contains('\\');
-    let lines = expression::lines(inner).filter(|_| !escapes)?;
+    // Where a group is asked; it would be another pattern with blanks in it.
+    let pattern = inner.bytes().all(|letter| b"01-".contains(&letter));
+    let lines = expression::lines(inner).filter(|_| !escapes && !pattern)?;
     Some(Written::Expression(open, lines, close))
 }
 

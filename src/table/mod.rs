@@ -29,8 +29,8 @@ pub use parse::MAX_DEPTH;
 /// Largest accepted table file, in bytes.
 const MAX_BYTES: u64 = 16 << 20;
 
-/// The version of the table language that this compiler reads.
-pub const LANGUAGE: u32 = 1;
+/// The newest version of the table language that this compiler reads. It reads all before, too.
+pub const LANGUAGE: u32 = 2;
 
 /// A table as written.
 #[derive(Debug, Clone)]
@@ -49,6 +49,8 @@ pub struct Table {
     pub levels: Vec<(Spanned<String>, Vec<Level>)>,
     /// The inputs, in the order of the generated parameters.
     pub inputs: Vec<Input>,
+    /// Inputs that conditions ask together, by patterns of bits.
+    pub groups: Vec<Group>,
     /// Conditions and values that have a name of their own.
     pub names: Vec<Named>,
     /// Maps of the inputs under which the table is meant to be equivariant.
@@ -125,6 +127,15 @@ pub enum Domain {
     Int(i64, i64),
     /// The real numbers of a closed interval, with their unit.
     Range(f64, f64, String),
+}
+
+/// Inputs that are `false` or `true`, in the order of the letters of a pattern.
+#[derive(Debug, Clone)]
+pub struct Group {
+    /// Its name.
+    pub name: Spanned<String>,
+    /// The inputs.
+    pub members: Vec<Spanned<String>>,
 }
 
 /// A named condition or value.

@@ -8,8 +8,8 @@ use serde::Deserialize;
 
 use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
 use super::{
-    Allow, Assumption, Case, CaseBody, Continuity, ContinuityKind, Domain, Erratum, Example, HitPolicy, Image, Input,
-    LANGUAGE, Level, Line, Named, Output, Symmetry, Table,
+    Allow, Assumption, Case, CaseBody, Continuity, ContinuityKind, Domain, Erratum, Example, Group, HitPolicy, Image,
+    Input, LANGUAGE, Level, Line, Named, Output, Symmetry, Table,
 };
 use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
 use crate::text::raw::{Raw, RawMap, Reader, Shape};
@@ -32,6 +32,8 @@ struct TableRon<'a> {
     #[serde(default = "RawMap::empty")]
     levels: RawMap<'a>,
     inputs: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    groups: RawMap<'a>,
     #[serde(default = "RawMap::empty")]
     names: RawMap<'a>,
     #[serde(default = "RawMap::empty")]
@@ -232,17 +234,22 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     }
     let ron: TableRon<'_> = read.get(read.whole()).map_err(|d| vec![d])?;
     let language = read.spanned::<u32>(ron.language).map_err(|d| vec![d])?;
-    if language.value != LANGUAGE {
-        let message = format!("this compiler reads version {LANGUAGE} of the table language, not {}", language.value);
+    if !(1..=LANGUAGE).contains(&language.value) {
+        let message =
+            format!("this compiler reads versions 1 to {LANGUAGE} of the table language, not {}", language.value);
         return Err(vec![
             Diagnostic::error(codes::LANGUAGE_VERSION, message).at(language.span, "version of this table"),
         ]);
     }
     let mut errors = Errors(Vec::new());
+    if let Some((group, _)) = ron.groups.0.first() {
+        errors.take(since(2, &language, read.span(*group), "`groups`"));
+    }
     let name = errors.take(read.spanned::<String>(ron.name));
     let decision = errors.take(read.decision(&ron));
     let levels = errors.each(ron.levels.0, |(n, v)| Ok((read.word(n)?, read.levels(&read.get(v)?)?)));
     let inputs = errors.each(ron.inputs.0, |(n, v)| read.input(n, v));
+    let groups = errors.each(ron.groups.0, |(n, v)| read.group(n, v));
     let names = errors.each(ron.names.0, |(n, v)| Ok(Named { name: read.word(n)?, value: read.condition(v)? }));
     let symmetries = errors.each(ron.symmetries.0, |(n, v)| read.symmetry(n, v));
     let assumptions = errors.each(ron.assume.0, |(n, v)| read.assumption(n, v));
@@ -263,6 +270,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
             hit_policy,
             levels,
             inputs,
+            groups,
             names,
             symmetries,
             assumptions,
@@ -280,6 +288,17 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
         }),
         _ => Err(errors.0),
     }
+}
+
+/// Refuses what a later version of the language brings.
+fn since(version: u32, language: &Spanned<u32>, span: Span, what: &str) -> Result<()> {
+    if language.value >= version {
+        return Ok(());
+    }
+    Err(Diagnostic::error(codes::LANGUAGE_VERSION, format!("{what} came with version {version} of the table language"))
+        .at(span, format!("not in version {}", language.value))
+        .at(language.span, "version of this table")
+        .help(format!("write `language: {version}`; whatever the table says already keeps its meaning")))
 }
 
 struct Errors(Vec<Diagnostic>);
@@ -364,6 +383,18 @@ impl<'a> Reader<'a> {
 
     fn levels(&self, map: &RawMap<'a>) -> Result<Vec<Level>> {
         map.0.iter().map(|(name, code)| Ok(Level { name: self.word(*name)?, code: self.spanned(*code)? })).collect()
+    }
+
+    /// `"corners": ["c0", "c1", "c2", "c3"]`
+    fn group(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Group> {
+        let members = self.get::<Vec<Raw<'a>>>(raw)?.into_iter().map(|member| self.word(member));
+        let (name, members) = (self.word(name)?, members.collect::<Result<Vec<_>>>()?);
+        if members.is_empty() {
+            return Err(Diagnostic::error(codes::STRUCTURE, format!("the group `{}` is empty", name.value))
+                .at(self.span(raw), "expected the names of inputs")
+                .help("write the inputs in the order of the letters of a pattern, as in [\"c0\", \"c1\", \"c2\"]"));
+        }
+        Ok(Group { name, members })
     }
 
     fn input(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Input> {

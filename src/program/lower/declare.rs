@@ -45,6 +45,10 @@ impl<'t> Lowering<'t> {
                 self.inputs.push(checked);
             }
         }
+        for group in &table.groups {
+            self.take_name(&group.name, "a group", &mut taken, errors);
+            keep(self.check_group(group), errors);
+        }
         for (index, named) in table.names.iter().enumerate() {
             self.take_name(&named.name, "a named value", &mut taken, errors);
             self.named_index.insert(&named.name.value, index);

@@ -176,6 +176,9 @@ impl Lowering<'_> {
     }
 
     pub(super) fn membership(&mut self, value: &Expr, levels: &[Spanned<String>], env: &Env) -> Result<Term> {
+        if let Some(group) = self.group_named(value, env) {
+            return self.matches(group, levels, env).map(Term::Bool);
+        }
         let term = self.term(value, env, Expected::Anything)?;
         let (set, term) = match term {
             Term::Level(set, term) => (set, term),

@@ -5,6 +5,7 @@ mod declare;
 mod draw;
 mod examples;
 mod functions;
+mod groups;
 mod images;
 mod levels;
 mod library;

@@ -237,6 +237,12 @@ impl Lowering<'_> {
                 .at(constant.name.span, "a list of constants")
                 .help(format!("lists stand in sums and polynomials: `sum(n in {name}, ...)`, `poly(x, {name})`"));
         }
+        if let Some(group) = scope.groups.iter().find(|group| group.name.value == name) {
+            let pattern = "01-1".chars().cycle().take(group.members.len()).collect::<String>();
+            return error
+                .at(group.name.span, "a group of inputs")
+                .help(format!("groups stand in conditions that are written as data: {{\"{name}\": \"{pattern}\"}}"));
+        }
         if let Some(input) = scope.inputs.iter().find(|input| input.name.value == name) {
             return error.at(input.name.span, "is an input of the table, but not a parameter here");
         }

@@ -40,9 +40,9 @@ fn inexact(expr: &Expr, written: &mut Written) {
     expr.parts().into_iter().for_each(|part| inexact(part, written));
 }
 
-/// Names that no case, default, assumption or symmetry leads to.
+/// Names and groups that no case, default, assumption or symmetry leads to.
 fn unused_names(table: &Table) -> Vec<Spanned<String>> {
-    if table.names.is_empty() {
+    if table.names.is_empty() && table.groups.is_empty() {
         return Vec::new();
     }
     let mut mentioned = HashSet::new();
@@ -75,7 +75,8 @@ fn unused_names(table: &Table) -> Vec<Spanned<String>> {
         }
         used.iter().for_each(|named| mentions(&named.value, &mut mentioned));
     }
-    pending.into_iter().map(|named| named.name.clone()).collect()
+    let groups = table.groups.iter().map(|group| &group.name).filter(|name| !mentioned.contains(&*name.value));
+    pending.into_iter().map(|named| &named.name).chain(groups).cloned().collect()
 }
 
 /// Helpers that nothing calls but helpers that nothing calls.
