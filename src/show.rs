@@ -1,7 +1,7 @@
 //! Results in the words of a table: numbers that read back exactly, and the
 //! names of levels.
 
-use crate::program::Output;
+use crate::program::{Output, Reading};
 
 /// The floating-point type that a table is evaluated in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -23,42 +23,45 @@ impl Precision {
     }
 }
 
-/// The names of the components of an output, for headings: `value`, or `value_x` and so on.
-pub fn component_names(output: &Output) -> Vec<&str> {
-    const NAMES: [&str; 4] = ["value_x", "value_y", "value_z", "value_w"];
-    match output {
-        Output::Vector(size) => NAMES[..*size].to_vec(),
-        Output::Record(names) => names.iter().map(String::as_str).collect(),
-        _ => vec!["value"],
-    }
-}
-
-/// The result in words: one number per component, or names of levels.
+/// The parts of a result in words: numbers, and names of levels.
 pub fn words(output: &Output, values: &[f64], precision: Precision) -> Vec<String> {
-    let name = |levels: &[String], value: f64| levels.get(value as usize).cloned().unwrap_or_else(|| "?".to_owned());
-    match (output, values) {
-        (Output::Number | Output::Vector(_) | Output::Record(_), _) => {
-            values.iter().map(|v| precision.show(*v)).collect()
-        }
-        (Output::Enumeration(levels), _) => values.iter().map(|v| name(&levels.names, *v)).collect(),
-        (Output::List { levels, .. }, [length, items @ ..]) => {
-            items.iter().take(*length as usize).map(|v| name(&levels.names, *v)).collect()
-        }
-        (Output::List { .. }, []) => Vec::new(),
+    parts(&output.read(values), precision)
+}
+
+fn parts(reading: &Reading<'_>, precision: Precision) -> Vec<String> {
+    match reading {
+        Reading::Number(value) => vec![precision.show(*value)],
+        Reading::Level(_, name) => vec![(*name).to_owned()],
+        Reading::Vector(values) => values.iter().map(|value| precision.show(*value)).collect(),
+        Reading::Record(fields) => fields.iter().flat_map(|(_, field)| parts(field, precision)).collect(),
+        Reading::List(items) => items.iter().flat_map(|item| parts(item, precision)).collect(),
     }
 }
 
-/// The result on one line: `0.5`, `(0.5, 1)`, `left`, `left right`.
+/// The result on one line: `0.5`, `(0.5, 1)`, `left`, `left right`, `a = 0.5, b = left`.
 pub fn sentence(output: &Output, values: &[f64], precision: Precision) -> String {
-    let words = words(output, values, precision);
-    match output {
-        Output::Vector(_) => format!("({})", words.join(", ")),
-        Output::Record(names) => {
-            let parts: Vec<String> = names.iter().zip(words).map(|(name, word)| format!("{name} = {word}")).collect();
-            parts.join(", ")
+    spoken(&output.read(values), precision)
+}
+
+fn spoken(reading: &Reading<'_>, precision: Precision) -> String {
+    match reading {
+        Reading::Number(_) | Reading::Level(..) => parts(reading, precision).concat(),
+        Reading::Vector(_) => format!("({})", parts(reading, precision).join(", ")),
+        Reading::Record(fields) => {
+            let fields = fields.iter().map(|(name, field)| format!("{name} = {}", inner(field, precision)));
+            fields.collect::<Vec<_>>().join(", ")
         }
-        Output::List { .. } if words.is_empty() => "an empty list".to_owned(),
-        _ => words.join(" "),
+        Reading::List(items) if items.is_empty() => "an empty list".to_owned(),
+        Reading::List(items) => items.iter().map(|item| inner(item, precision)).collect::<Vec<_>>().join(" "),
+    }
+}
+
+/// A part of a result. What is made of several words is held together.
+fn inner(reading: &Reading<'_>, precision: Precision) -> String {
+    match reading {
+        Reading::Number(_) | Reading::Level(..) | Reading::Vector(_) => spoken(reading, precision),
+        Reading::Record(_) => format!("{{{}}}", spoken(reading, precision)),
+        Reading::List(_) => format!("[{}]", parts(reading, precision).join(" ")),
     }
 }
 
@@ -72,12 +75,25 @@ mod tests {
         let levels =
             Levels { names: ["no", "yes"].map(str::to_owned).into(), codes: vec![0.0, 1.0], kind: LevelKind::Named };
         let third = 1.0_f32 / 3.0;
-        assert_eq!(sentence(&Output::Number, &[f64::from(third)], Precision::F32), "0.33333334");
-        assert_eq!(sentence(&Output::Number, &[1.0 / 3.0], Precision::F64), "0.3333333333333333");
-        assert_eq!(sentence(&Output::Vector(2), &[1.0, 0.5], Precision::F32), "(1, 0.5)");
+        let (number, vector) = (Output::Number(None), Output::Vector(2, None));
+        assert_eq!(sentence(&number, &[f64::from(third)], Precision::F32), "0.33333334");
+        assert_eq!(sentence(&number, &[1.0 / 3.0], Precision::F64), "0.3333333333333333");
+        assert_eq!(sentence(&vector, &[1.0, 0.5], Precision::F32), "(1, 0.5)");
         assert_eq!(sentence(&Output::Enumeration(levels.clone()), &[1.0], Precision::F32), "yes");
-        let list = Output::List { levels, max: 3 };
+        let list = Output::List { of: levels, max: 3 };
         assert_eq!(sentence(&list, &[2.0, 1.0, 0.0, 0.0], Precision::F32), "yes no");
+        assert_eq!(sentence(&list, &[0.0; 4], Precision::F32), "an empty list");
         assert_eq!(words(&list, &[0.0; 4], Precision::F32), [""; 0]);
+        let record = |fields: [(&str, &Output); 2]| {
+            Output::Record(fields.map(|(name, of)| (name.to_owned(), of.clone())).to_vec())
+        };
+        let both = record([("edges", &list), ("at", &vector)]);
+        let values = [2.0, 1.0, 0.0, 0.0, 0.5, 1.0];
+        assert_eq!(sentence(&both, &values, Precision::F32), "edges = [yes no], at = (0.5, 1)");
+        assert_eq!(words(&both, &values, Precision::F32), ["yes", "no", "0.5", "1"]);
+        assert_eq!(sentence(&both, &[0.0; 6], Precision::F32), "edges = [], at = (0, 0)");
+        let nested = record([("n", &number), ("both", &both)]);
+        let values = [7.0, 1.0, 1.0, 0.0, 0.0, 0.5, 1.0];
+        assert_eq!(sentence(&nested, &values, Precision::F32), "n = 7, both = {edges = [yes], at = (0.5, 1)}");
     }
 }

@@ -6,7 +6,7 @@ use crate::diag::Failure;
 use crate::eval::Interpreter;
 use crate::picture;
 use crate::program::draw::Draw;
-use crate::program::{Domain, InputId, Output, Program, Value};
+use crate::program::{Domain, InputId, Program, Reading, Value};
 
 /// Colours of levels, for results that are no numbers.
 const LEVELS: [[u8; 3]; 8] = [
@@ -85,7 +85,7 @@ pub(super) fn picture(
         match interpreter.evaluate(&point) {
             Ok(outcome) if outcome.row == Some(row) => {
                 let values: Vec<f64> = outcome.values.iter().map(|value| f64::from(*value)).collect();
-                let [r, g, b] = colour(&program.output, &values, scale);
+                let [r, g, b] = colour(&program.output.read(&values), scale);
                 Rgba([r, g, b, 255])
             }
             _ => Rgba([0; 4]),
@@ -93,17 +93,18 @@ pub(super) fn picture(
     })
 }
 
-/// The colour of a result: grey for a number, colours for more or for levels.
-pub(super) fn colour(output: &Output, values: &[f64], scale: &Scale) -> [u8; 3] {
+/// The colour of a result: grey for a number, colours for more or for levels. A list has that of its length.
+pub(super) fn colour(reading: &Reading<'_>, scale: &Scale) -> [u8; 3] {
     let grey = |value: f64| {
         let share = (value - scale.black) / (scale.white - scale.black);
         (share.clamp(0.0, 1.0) * 255.0).round() as u8
     };
-    match (output, values) {
-        (Output::Vector(_), [r, g, rest @ ..]) => [grey(*r), grey(*g), rest.first().map_or(0, |b| grey(*b))],
-        (Output::Enumeration(_) | Output::List { .. }, [first, ..]) => LEVELS[*first as usize % LEVELS.len()],
-        (_, [value, ..]) => [grey(*value); 3],
-        (_, []) => [0; 3],
+    match reading {
+        Reading::Number(value) => [grey(*value); 3],
+        Reading::Vector(values) => [0, 1, 2].map(|channel| values.get(channel).map_or(0, |value| grey(*value))),
+        Reading::Level(index, _) => LEVELS[index % LEVELS.len()],
+        Reading::List(items) => LEVELS[items.len() % LEVELS.len()],
+        Reading::Record(fields) => fields.first().map_or([0; 3], |(_, first)| colour(first, scale)),
     }
 }
 

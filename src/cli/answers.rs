@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::output::Sink;
 use crate::diag::Failure;
-use crate::program::{InputId, Output, Program};
-use crate::show::{self, Precision};
+use crate::program::{InputId, Program, Reading};
+use crate::show::Precision;
 
 /// The answers to some points, in their order.
 #[derive(Default)]
@@ -40,7 +40,7 @@ impl<'p> Writer<'p> {
     ) -> Result<Self, Failure> {
         let head = match json {
             true => "[".to_owned(),
-            false => format!("case,{}\n", show::component_names(&program.output).join(",")),
+            false => format!("case,{}\n", program.output.columns().join(",")),
         };
         out.write_all(head.as_bytes()).map_err(|e| out.failure(&e))?;
         Ok(Self { program, precision, json, started: false, out })
@@ -48,7 +48,7 @@ impl<'p> Writer<'p> {
 
     /// Writes some answers.
     pub(super) fn write(&mut self, answers: &Answers) -> Result<(), Failure> {
-        let values = answers.values.chunks_exact(self.program.output.components());
+        let values = answers.values.chunks_exact(self.program.output.components().len());
         for (row, values) in answers.rows.iter().zip(values) {
             let written = match self.json {
                 true => self.object(*row, values),
@@ -73,48 +73,73 @@ impl<'p> Writer<'p> {
             Some(row) => write!(self.out, "{},", self.program.rows[row].id)?,
             None => self.out.write_all(b"default,")?,
         }
-        // Numbers and names of levels need no quotes.
-        match &self.program.output {
-            Output::Number | Output::Vector(_) | Output::Record(_) => {
-                for (i, value) in values.iter().enumerate() {
-                    let comma = if i > 0 { "," } else { "" };
-                    match self.precision {
-                        Precision::F32 => write!(self.out, "{comma}{}", *value as f32)?,
-                        Precision::F64 => write!(self.out, "{comma}{value}")?,
-                    }
-                }
-            }
-            output => self.out.write_all(show::words(output, values, self.precision).join(" ").as_bytes())?,
-        }
+        let reading = self.program.output.read(values);
+        self.cells(&reading)?;
         self.out.write_all(b"\n")
     }
 
+    /// The columns of a result. Numbers and names of levels need no quotes.
+    fn cells(&mut self, reading: &Reading<'_>) -> io::Result<()> {
+        match reading {
+            Reading::Number(value) => match self.precision {
+                Precision::F32 => write!(self.out, "{}", *value as f32),
+                Precision::F64 => write!(self.out, "{value}"),
+            },
+            Reading::Level(_, name) => self.out.write_all(name.as_bytes()),
+            Reading::Vector(values) => self.separated(",", values, |me, value| me.cells(&Reading::Number(*value))),
+            Reading::Record(fields) => self.separated(",", fields, |me, (_, field)| me.cells(field)),
+            Reading::List(items) => self.separated(" ", items, |me, item| me.cells(item)),
+        }
+    }
+
+    fn separated<T>(
+        &mut self,
+        separator: &str,
+        parts: &[T],
+        write: impl Fn(&mut Self, &T) -> io::Result<()>,
+    ) -> io::Result<()> {
+        for (index, part) in parts.iter().enumerate() {
+            if index > 0 {
+                self.out.write_all(separator.as_bytes())?;
+            }
+            write(self, part)?;
+        }
+        Ok(())
+    }
+
     fn object(&mut self, row: Option<usize>, values: &[f64]) -> io::Result<()> {
-        let words = show::words(&self.program.output, values, self.precision);
-        // A number goes out as it is shown, so that it reads back exactly. JSON has no
-        // infinities and no NaN; those are strings.
-        let number = |(word, value): (&String, &f64)| match value.is_finite() {
-            true => word.clone(),
-            false => format!("\"{word}\""),
-        };
-        let value = match &self.program.output {
-            Output::Record(names) => {
-                // One key per number, as there is one column in CSV.
-                let fields = names.iter().zip(words.iter().zip(values));
-                let fields = fields.map(|(name, pair)| format!(",\"{name}\":{}", number(pair))).collect::<String>();
-                let case = row.map_or(json!("default"), |row| Value::from(self.program.rows[row].id));
-                let separator = if std::mem::replace(&mut self.started, true) { "," } else { "" };
-                return write!(self.out, "{separator}\n{{\"case\":{case}{fields}}}");
+        let value = match &self.program.output.read(values) {
+            // A key for each field, as there are columns for each in CSV.
+            Reading::Record(fields) => self.fields(fields),
+            other @ (Reading::Number(_) | Reading::Level(..) | Reading::Vector(_) | Reading::List(_)) => {
+                format!("\"value\":{}", self.json(other))
             }
-            Output::Number => words.iter().zip(values).map(number).collect(),
-            Output::Vector(_) => {
-                format!("[{}]", words.iter().zip(values).map(number).collect::<Vec<_>>().join(","))
-            }
-            Output::Enumeration(_) => words.iter().map(|w| json!(w).to_string()).collect(),
-            Output::List { .. } => json!(words).to_string(),
         };
         let case = row.map_or(json!("default"), |row| Value::from(self.program.rows[row].id));
         let separator = if std::mem::replace(&mut self.started, true) { "," } else { "" };
-        write!(self.out, "{separator}\n{{\"case\":{case},\"value\":{value}}}")
+        write!(self.out, "{separator}\n{{\"case\":{case},{value}}}")
+    }
+
+    fn fields(&self, fields: &[(&str, Reading<'_>)]) -> String {
+        let fields = fields.iter().map(|(name, field)| format!("{}:{}", json!(name), self.json(field)));
+        fields.collect::<Vec<_>>().join(",")
+    }
+
+    fn json(&self, reading: &Reading<'_>) -> String {
+        match reading {
+            // A number goes out as it is shown, so that it reads back exactly. JSON has no
+            // infinities and no NaN; those are strings.
+            Reading::Number(value) if value.is_finite() => self.precision.show(*value),
+            Reading::Number(value) => format!("\"{}\"", self.precision.show(*value)),
+            Reading::Level(_, name) => json!(name).to_string(),
+            Reading::Vector(values) => {
+                let numbers = values.iter().map(|value| self.json(&Reading::Number(*value)));
+                format!("[{}]", numbers.collect::<Vec<_>>().join(","))
+            }
+            Reading::Record(fields) => format!("{{{}}}", self.fields(fields)),
+            Reading::List(items) => {
+                format!("[{}]", items.iter().map(|item| self.json(item)).collect::<Vec<_>>().join(","))
+            }
+        }
     }
 }

@@ -10,12 +10,12 @@ use std::collections::HashMap;
 use super::function::body::Body;
 use super::function::lookup;
 use super::function::outline::MAX_LEVELS;
-use super::language::{Dialect, Prefix, Type};
+use super::language::{Dialect, Prefix, Type, structures};
 use super::names::{Names, fetches, input_type};
 use super::text::Text;
 use crate::diag::fnv1a;
 use crate::plan::{KeyLayout, Plan};
-use crate::program::{BinaryOp, Domain, Levels, Node, Output, Program, UnaryOp};
+use crate::program::{BinaryOp, Domain, Levels, Node, Program, Scalar, UnaryOp};
 use crate::prove::Proved;
 
 /// Writes the module of a plan.
@@ -99,13 +99,16 @@ impl Writer<'_, '_> {
         let name = self.dialect.global_constant(&self.prefix, "DEFAULT");
         self.text.line(self.dialect.constant(&name, self.names.default));
         self.text.gap();
-        if let Output::Record(names) = &program.output {
-            self.text.comment("The result.");
-            self.text.line(self.dialect.value_struct(&self.prefix, names));
+        let data = program.output.data_type();
+        for (name, structure) in structures(self.dialect, &self.prefix, &data) {
+            self.text.comment(if name == self.prefix.value() { "The result." } else { "A part of the result." });
+            self.text.line(structure);
             self.text.gap();
         }
         self.text.comment("The result and the number of the case that gave it.");
-        self.text.line(self.dialect.result_struct(&self.prefix, &program.output));
+        let fields = [("value", Type::Data(data)), ("case_id", Type::UINT)];
+        let fields = fields.map(|(name, ty)| (name, self.dialect.ty(&ty, &self.prefix)));
+        self.text.line(self.dialect.structure(&self.prefix.result(), &fields));
         self.text.gap();
         if uses(self.plan, |node| matches!(node, Node::Binary(BinaryOp::Remainder, ..))) {
             let helper = self.dialect.remainder(&self.prefix);
@@ -126,10 +129,10 @@ impl Writer<'_, '_> {
 
     /// The level whose code is nearest; the first one for NaN.
     fn level_function(&mut self, set: &str, levels: &Levels) {
-        let parameter = ("code".to_owned(), Type::Float);
+        let parameter = ("code".to_owned(), Type::FLOAT);
         let name = self.dialect.global(&self.prefix, &format!("{set}_level"));
         self.text.comment(&format!("Levels of {set} from their codes: {}.", levels.describe()));
-        self.text.open(self.dialect.function(&name, &[parameter], &Type::Uint, &self.prefix));
+        self.text.open(self.dialect.function(&name, &[parameter], &Type::UINT, &self.prefix));
         let mut sorted: Vec<(f64, usize)> = levels.codes.iter().copied().zip(0..).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let above = |i: usize| {
@@ -157,7 +160,7 @@ impl Writer<'_, '_> {
         digits
             .map(|(input, _)| {
                 let input = &program.inputs[input.index()];
-                (input.ident.clone(), input_type(&input.domain, Type::Float))
+                (input.ident.clone(), input_type(&input.domain, Scalar::Float).into())
             })
             .collect()
     }
@@ -169,7 +172,7 @@ impl Writer<'_, '_> {
             true => "The key of the only state: there are no discrete inputs.".to_owned(),
             false => format!("The key of a state: {}.", describe_key(program, &self.plan.key)),
         });
-        self.text.open(self.dialect.function(&name, &self.discrete(), &Type::Uint, &self.prefix));
+        self.text.open(self.dialect.function(&name, &self.discrete(), &Type::UINT, &self.prefix));
         let mut parts = Vec::new();
         for field in self.plan.key.fields() {
             let input = &program.inputs[field.input.index()];
@@ -213,11 +216,11 @@ impl Writer<'_, '_> {
         self.text.gap();
         self.text.comment("Which way to go for a key.");
         let name = self.dialect.global(&self.prefix, "arm");
-        let parameter = ("key".to_owned(), Type::Uint);
-        self.text.open(self.dialect.function(&name, &[parameter], &Type::Uint, &self.prefix));
+        let parameter = ("key".to_owned(), Type::UINT);
+        self.text.open(self.dialect.function(&name, &[parameter], &Type::UINT, &self.prefix));
         let uint = |value: u32| self.dialect.uint(value);
         let word = self.dialect.lookup_call(&self.prefix, &format!("key >> {}", uint(per_word.trailing_zeros())));
-        let local = self.dialect.local(&Type::Uint, "word", &word, &self.prefix);
+        let local = self.dialect.local(&Type::UINT, "word", &word, &self.prefix);
         self.text.line(local);
         let shift = format!("((key & {}) * {})", uint(per_word - 1), uint(bits));
         self.text.line(format!("return (word >> {shift}) & {};", uint((1_u64 << bits) as u32 - 1)));
@@ -247,8 +250,8 @@ impl Writer<'_, '_> {
             }
         }
         let global = self.dialect.global(&self.prefix, name);
-        let parameter = ("word".to_owned(), Type::Uint);
-        self.text.open(self.dialect.function(&global, &[parameter], &Type::Uint, &self.prefix));
+        let parameter = ("word".to_owned(), Type::UINT);
+        self.text.open(self.dialect.function(&global, &[parameter], &Type::UINT, &self.prefix));
         if let (Some((low, _)), [below, above]) = (halves, calls.as_slice()) {
             let middle = self.dialect.uint((first + low.len()) as u32);
             self.text.open(self.dialect.if_open(&format!("word < {middle}")));
@@ -279,7 +282,7 @@ impl Writer<'_, '_> {
         let inputs = self.plan.program.inputs.iter().filter(|input| input.fetched.is_none());
         inputs
             .filter(|i| matches!(i.domain, Domain::Continuous { .. }))
-            .map(|i| (i.ident.clone(), Type::Float))
+            .map(|i| (i.ident.clone(), Type::FLOAT))
             .collect()
     }
 
@@ -290,7 +293,7 @@ impl Writer<'_, '_> {
 
     fn decision(&mut self) {
         let [.., name] = self.dialect.entry_names(&self.prefix);
-        let mut parameters = vec![("key".to_owned(), Type::Uint)];
+        let mut parameters = vec![("key".to_owned(), Type::UINT)];
         parameters.extend(self.continuous());
         parameters.extend(self.site());
         let body = Body::new(self.plan, self.dialect, &self.prefix, &self.names);
@@ -301,21 +304,21 @@ impl Writer<'_, '_> {
     fn wrappers(&mut self) {
         let program = self.plan.program;
         let [levels, key, levels_case, key_case] = self.dialect.entry_names(&self.prefix);
-        let value = Type::Value(program.output.clone());
+        let value = Type::Data(program.output.data_type());
         let site = self.site();
         let with_levels: Vec<(String, Type)> = program
             .inputs
             .iter()
             .filter(|input| input.fetched.is_none())
-            .map(|input| (input.ident.clone(), input_type(&input.domain, Type::Float)))
+            .map(|input| (input.ident.clone(), input_type(&input.domain, Scalar::Float).into()))
             .chain(site.clone())
             .collect();
         let with_key: Vec<(String, Type)> =
-            [("key".to_owned(), Type::Uint)].into_iter().chain(self.continuous()).chain(site.clone()).collect();
+            [("key".to_owned(), Type::UINT)].into_iter().chain(self.continuous()).chain(site.clone()).collect();
         let pass = |parameters: &[(String, Type)]| {
             let names = parameters.iter().map(|(name, ty)| match ty {
                 Type::Site => self.dialect.site_argument().to_owned(),
-                Type::Float | Type::Uint | Type::Bool | Type::Pair | Type::Value(_) | Type::Result => name.clone(),
+                Type::Data(_) | Type::Result => name.clone(),
             });
             names.collect::<Vec<_>>().join(", ")
         };

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::language::{Dialect, Prefix, Type};
-use crate::program::{Domain, InputId, LevelKind, Levels, Program};
+use super::language::{Dialect, Prefix};
+use crate::program::{Domain, InputId, LevelKind, Levels, Program, Scalar};
 
 /// Names of generated things that depend on the whole table.
 pub(super) struct Names {
@@ -100,9 +100,9 @@ impl Names {
     }
 
     /// Name and type of a fetched input.
-    pub(super) fn fetched(&self, program: &Program, input: InputId) -> (String, Type) {
+    pub(super) fn fetched(&self, program: &Program, input: InputId) -> (String, Scalar) {
         let input = &program.inputs[input.index()];
-        (input.ident.clone(), input_type(&input.domain, Type::Uint))
+        (input.ident.clone(), input_type(&input.domain, Scalar::Uint))
     }
 }
 
@@ -125,16 +125,16 @@ fn level_constants(prefix: &Prefix, set: &str, levels: &Levels) -> Vec<String> {
 }
 
 /// The type of an input; `levels` is that of named and integer levels.
-pub(super) fn input_type(domain: &Domain, levels: Type) -> Type {
+pub(super) fn input_type(domain: &Domain, levels: Scalar) -> Scalar {
     match domain {
-        Domain::Discrete(l) if l.kind == LevelKind::Bool => Type::Bool,
+        Domain::Discrete(l) if l.kind == LevelKind::Bool => Scalar::Bool,
         Domain::Discrete(_) => levels,
-        Domain::Continuous { .. } => Type::Float,
+        Domain::Continuous { .. } => Scalar::Float,
     }
 }
 
 /// The inputs that are fetched, by identifier, in the order declared.
-pub(super) fn fetches(program: &Program) -> Vec<(String, Type)> {
+pub(super) fn fetches(program: &Program) -> Vec<(String, Scalar)> {
     let fetched = program.inputs.iter().filter(|input| input.fetched.is_some());
-    fetched.map(|input| (input.ident.clone(), input_type(&input.domain, Type::Uint))).collect()
+    fetched.map(|input| (input.ident.clone(), input_type(&input.domain, Scalar::Uint))).collect()
 }

@@ -102,7 +102,7 @@ impl<'p, T: Real> Batch<'p, T> {
     /// As [`Self::evaluate`].
     pub fn evaluate_into(&mut self, columns: &Columns<T>, results: &mut Results<T>) -> Result<(), Missing> {
         assert!(columns.fit(self.program), "columns of another program");
-        let components = self.program.output.components();
+        let components = self.program.output.components().len();
         results.values.resize_with(components, Vec::new);
         results.values.iter_mut().for_each(|column| column.resize(columns.len(), T::from_f64(0.0)));
         results.path.resize(columns.len(), 0);

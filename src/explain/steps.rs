@@ -5,8 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::Witness;
 use crate::eval::NeedsFetch;
 use crate::program::operators::Notation;
-use crate::program::{ExprId, Node, Real};
-use crate::show;
+use crate::program::{ExprId, Node, Real, Scalar};
 
 /// One operation of a computation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,14 +24,14 @@ pub struct Step {
 
 /// The steps that compute the components of a result.
 pub(super) fn of<T: Real>(witness: &mut Witness<'_, T>, values: &[ExprId]) -> Result<Vec<Step>, NeedsFetch> {
-    let output = &witness.program.output;
-    let components = show::component_names(output);
-    // Levels are numbered inside; only the numbers themselves are worth deriving.
-    let roots = if output.is_integer() { &values[..0] } else { values };
-    let taken = witness.program.inputs.iter().map(|i| i.name.clone()).chain(components.iter().map(|n| (*n).to_owned()));
+    let components = witness.program.output.components();
+    let inputs = witness.program.inputs.iter().map(|input| input.name.clone());
+    let taken = inputs.chain(components.iter().map(|component| component.name.clone()));
     let mut steps = Steps { taken: taken.collect(), witness, done: HashMap::new(), list: Vec::new(), anonymous: 0 };
-    for (root, name) in roots.iter().zip(components) {
-        steps.root(*root, name)?;
+    // Levels are numbered inside; only the numbers themselves are worth deriving.
+    let numbers = values.iter().zip(&components).filter(|(_, component)| component.scalar == Scalar::Float);
+    for (root, component) in numbers {
+        steps.root(*root, &component.name)?;
     }
     Ok(steps.list)
 }

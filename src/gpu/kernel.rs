@@ -151,11 +151,11 @@ impl<'a, 'p> Kernel<'a, 'p> {
         let rows: std::collections::HashMap<u32, usize> =
             self.program.rows.iter().enumerate().map(|(index, row)| (row.id, index)).collect();
         let fetched: Vec<InputId> = self.program.fetched.iter().collect();
-        let integer = self.program.output.is_integer();
+        let components = self.program.output.components();
         for result in words.chunks_exact(self.layout.out) {
             outputs.rows.push(rows.get(&result[0]).copied());
-            for (component, word) in outputs.values.iter_mut().zip(&result[1..]) {
-                component.push(if integer { *word as f32 } else { f32::from_bits(*word) });
+            for ((column, component), word) in outputs.values.iter_mut().zip(&components).zip(&result[1..]) {
+                column.push(component.scalar.number(*word));
             }
             let (mut once, mut repeated) = (InputSet::default(), InputSet::default());
             for (index, input) in fetched.iter().enumerate() {

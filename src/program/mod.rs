@@ -18,12 +18,14 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 pub(crate) mod claims;
+pub mod data_type;
 mod domain;
 pub mod draw;
 mod lower;
 pub(crate) mod normal;
 pub mod operators;
 mod ops;
+mod output;
 mod pool;
 pub mod print;
 pub(crate) mod rational;
@@ -38,10 +40,12 @@ use std::sync::Arc;
 use crate::diag::{Failure, Source, Span, Spanned};
 use crate::table::{Allow, Erratum, HitPolicy, Table};
 
+pub use data_type::{Component, DataType, Scalar};
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 pub use lower::LevelTerm;
 pub use operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 pub use ops::Real;
+pub use output::{Output, Reading};
 pub use pool::{Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool};
 pub(crate) use reachable::can_occur;
 pub use reachable::reachable;
@@ -165,43 +169,6 @@ pub struct Accuracy {
     pub scale: ExprId,
     /// The claim.
     pub span: Span,
-}
-
-/// The kind of a table's result: one number per component.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Output {
-    /// One number.
-    Number,
-    /// Two to four numbers.
-    Vector(usize),
-    /// Several numbers, each with a name; of functions only.
-    Record(Vec<String>),
-    /// The index of a level.
-    Enumeration(Levels),
-    /// A length, and that many indices of levels followed by zeros up to `max`.
-    List {
-        /// The levels that items refer to.
-        levels: Levels,
-        /// Most items.
-        max: usize,
-    },
-}
-
-impl Output {
-    /// The number of components.
-    pub fn components(&self) -> usize {
-        match self {
-            Output::Number | Output::Enumeration(_) => 1,
-            Output::Vector(size) => *size,
-            Output::Record(names) => names.len(),
-            Output::List { max, .. } => max + 1,
-        }
-    }
-
-    /// Returns whether components are whole numbers rather than reals.
-    pub fn is_integer(&self) -> bool {
-        matches!(self, Output::Enumeration(_) | Output::List { .. })
-    }
 }
 
 /// A row: one case of the technique.

@@ -12,6 +12,7 @@ mod functions;
 mod imports;
 pub(crate) mod lex;
 pub(crate) mod names;
+mod output;
 pub(crate) mod parse;
 mod piece;
 mod read;
@@ -24,6 +25,7 @@ use crate::text::file::{read_text, shown};
 use expr::Expr;
 
 pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
+pub use output::Output;
 pub use parse::MAX_DEPTH;
 
 /// Largest accepted table file, in bytes.
@@ -60,7 +62,7 @@ pub struct Table {
     /// The drawing hints of inputs.
     pub draw: Vec<(Spanned<String>, draw::Draw)>,
     /// The kind of its result.
-    pub output: Spanned<Output>,
+    pub output: Spanned<Output<Spanned<String>>>,
     /// The rows, in the order written; none in a table of functions.
     pub cases: Vec<Case>,
     /// The result where no case matches.
@@ -222,24 +224,6 @@ pub struct Assumption {
     pub condition: Expr,
     /// Why it holds.
     pub doc: String,
-}
-
-/// The kind of a table's result.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Output {
-    /// One number, optionally clamped once, at the end.
-    Number(Option<(f64, f64)>),
-    /// Two to four numbers, each clamped like a single one.
-    Vector(usize, Option<(f64, f64)>),
-    /// One level of a shared set or of an input's levels.
-    Enumeration(Spanned<String>),
-    /// At most `max` levels of a set, in order.
-    List {
-        /// The level set, or an input that has it.
-        of: Spanned<String>,
-        /// Most items, 1 to 64.
-        max: usize,
-    },
 }
 
 /// One row of the table.

@@ -156,28 +156,6 @@ struct AllowRon<'a> {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-enum OutputRon<'a> {
-    Number {
-        #[serde(default)]
-        clamp: Option<(f64, f64)>,
-    },
-    Vector {
-        size: usize,
-        #[serde(default)]
-        clamp: Option<(f64, f64)>,
-    },
-    Enumeration {
-        #[serde(borrow)]
-        of: Raw<'a>,
-    },
-    List {
-        of: Raw<'a>,
-        max: usize,
-    },
-}
-
-#[derive(Deserialize)]
 #[serde(rename = "Case", deny_unknown_fields)]
 struct CaseRon<'a> {
     #[serde(borrow)]
@@ -316,7 +294,7 @@ impl Errors {
 /// The parts of a table of cases besides its cases.
 struct Decision {
     hit_policy: Spanned<HitPolicy>,
-    output: Spanned<Output>,
+    output: Spanned<Output<Spanned<String>>>,
     default: Expr,
 }
 
@@ -566,31 +544,6 @@ impl<'a> Reader<'a> {
                 .help("say why the finding stays: (code: \"U0508\", reason: \"the source orders them so\")"));
         }
         Ok(allow)
-    }
-
-    fn output(&self, raw: Raw<'a>) -> Result<Spanned<Output>> {
-        let span = self.span(raw);
-        let output = match self.get::<OutputRon<'a>>(raw)? {
-            OutputRon::Number { clamp } => Output::Number(clamp),
-            OutputRon::Vector { size, clamp } => Output::Vector(size, clamp),
-            OutputRon::Enumeration { of } => Output::Enumeration(self.word(of)?),
-            OutputRon::List { of, max } => Output::List { of: self.word(of)?, max },
-        };
-        let (size_ok, clamp) = match &output {
-            Output::Number(clamp) => (true, *clamp),
-            Output::Vector(size, clamp) => ((2..=4).contains(size), *clamp),
-            Output::Enumeration(_) => (true, None),
-            Output::List { max, .. } => ((1..=64).contains(max), None),
-        };
-        if !size_ok {
-            return Err(Diagnostic::error(codes::DOMAIN, "impossible size of the output")
-                .at(span, "a vector has 2 to 4 components, a list at most 64 items"));
-        }
-        if clamp.is_some_and(|(lo, hi)| !(lo.is_finite() && hi.is_finite() && lo <= hi)) {
-            return Err(Diagnostic::error(codes::DOMAIN, "`clamp` needs two finite bounds in ascending order")
-                .at(span, "in this output"));
-        }
-        Ok(Spanned::new(span, output))
     }
 
     pub(super) fn case(&self, raw: Raw<'a>) -> Result<Case> {

@@ -139,7 +139,7 @@ fn worked_examples_in_emitted_rust() {
             let line = lines.next().unwrap();
             let words = line.split([' ', ',', '}']).filter_map(|word| word.parse::<f32>().ok());
             let got: Vec<f32> = words.collect();
-            assert_eq!(got.len(), program.output.components(), "{line}");
+            assert_eq!(got.len(), program.output.components().len(), "{line}");
             assert!(right(program, index, &got), "{} example {index}: {line}", program.name);
         }
     }

@@ -234,7 +234,7 @@ fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell
     }
     let mut largest: Vec<_> = largest.into_iter().collect();
     largest.sort_by(|a, b| b.1.0.total_cmp(&a.1.0));
-    let numbers = !program.output.is_integer();
+    let numbers = program.output.is_real();
     let describe = |((a, b), (size, set, sides)): (Pair, (f64, Set, Sides))| {
         let mut rows = vec![a, b];
         rows.dedup();

@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 
 use super::outline::{FAN_OUT, MAX_LEVELS, Outline};
-use crate::emit::language::{Dialect, Prefix, Type, bare};
+use crate::emit::language::{Dialect, Prefix, Type, bare, value};
 use crate::emit::names::{Names, input_type};
 use crate::emit::text::Text;
 use crate::plan::{Plan, Step, StepId};
-use crate::program::{CondId, Domain, InputId, InputSet, LevelKind};
+use crate::program::{CondId, Domain, InputId, InputSet, LevelKind, Scalar};
 
 /// Prints steps: one function, and before it those that it calls.
 pub(in crate::emit) struct Body<'a, 'p> {
@@ -78,8 +78,8 @@ impl<'a, 'p> Body<'a, 'p> {
             };
             let level = format!("{shifted} & {}", self.dialect.uint(field.mask()));
             let (ty, value) = match levels.kind {
-                LevelKind::Bool => (Type::Bool, format!("({level}) != {}", self.dialect.uint(0))),
-                LevelKind::Named | LevelKind::Int => (Type::Uint, level),
+                LevelKind::Bool => (Type::BOOL, format!("({level}) != {}", self.dialect.uint(0))),
+                LevelKind::Named | LevelKind::Int => (Type::UINT, level),
             };
             self.text.line(self.dialect.local(&ty, &input.ident, &value, self.prefix));
         }
@@ -90,12 +90,12 @@ impl<'a, 'p> Body<'a, 'p> {
         let program = self.plan.program;
         let mut parameters = Vec::new();
         if self.plan.key.fields().iter().any(|field| needs.contains(field.input)) {
-            parameters.push(("key".to_owned(), Type::Uint));
+            parameters.push(("key".to_owned(), Type::UINT));
         }
         for input in needs.iter() {
             let declared = &program.inputs[input.index()];
             if declared.fetched.is_some() || matches!(declared.domain, Domain::Continuous { .. }) {
-                parameters.push((declared.ident.clone(), input_type(&declared.domain, Type::Uint)));
+                parameters.push((declared.ident.clone(), input_type(&declared.domain, Scalar::Uint).into()));
             }
         }
         if fetches {
@@ -116,7 +116,7 @@ impl<'a, 'p> Body<'a, 'p> {
         self.count += 1;
         let name = self.dialect.global(self.prefix, &format!("{kind}_{}", self.count));
         let mut parameters = self.parameters(needs, fetches);
-        parameters.splice(0..0, selector.map(|selector| (selector.to_owned(), Type::Uint)));
+        parameters.splice(0..0, selector.map(|selector| (selector.to_owned(), Type::UINT)));
         let (outer, renamed) = (std::mem::take(&mut self.text), std::mem::take(&mut self.renamed));
         self.text.comment(comment);
         self.open(&name, &parameters, needs);
@@ -171,7 +171,7 @@ impl<'a, 'p> Body<'a, 'p> {
                 Step::Fetch { input, next } => {
                     let (ident, ty) = self.names.fetched(self.plan.program, input);
                     let call = self.dialect.fetch(self.prefix, &ident);
-                    let line = self.dialect.local(&ty, &ident, &call, self.prefix);
+                    let line = self.dialect.local(&ty.into(), &ident, &call, self.prefix);
                     self.text.line(line);
                     if self.outline.is_function(next) {
                         return self.step(next, level);
@@ -197,11 +197,10 @@ impl<'a, 'p> Body<'a, 'p> {
     fn gather(&mut self, input: InputId, condition: CondId) {
         let (ident, ty) = self.names.fetched(self.plan.program, input);
         let nothing = match ty {
-            Type::Bool => "false".to_owned(),
-            Type::Float => self.dialect.number(self.plan.program.inputs[input.index()].least()),
-            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => self.dialect.uint(0),
+            Scalar::Float => self.dialect.number(self.plan.program.inputs[input.index()].least()),
+            Scalar::Uint | Scalar::Bool => self.dialect.zero(ty),
         };
-        self.text.line(self.dialect.variable(&ty, &ident, &nothing, self.prefix));
+        self.text.line(self.dialect.variable(&ty.into(), &ident, &nothing, self.prefix));
         if self.plan.pool.truth(condition) == Some(false) {
             return;
         }
@@ -238,9 +237,9 @@ impl<'a, 'p> Body<'a, 'p> {
             let miss = self.names.miss(self.dialect);
             let call = self.function("part", None, about, "Some of the tests; no case if none holds.", |me| {
                 me.chain(part, level + nested + 1);
-                let output = &me.plan.program.output;
-                let zero = if output.is_integer() { me.dialect.uint(0) } else { me.dialect.number(0.0) };
-                let value = me.dialect.value(me.prefix, output, &vec![zero; output.components()]);
+                let data = me.plan.program.output.data_type();
+                let zeros = data.components().into_iter().map(|component| me.dialect.zero(component.scalar));
+                let value = value(me.dialect, me.prefix, &data, zeros);
                 let result = me.dialect.result(me.prefix, &value, &miss);
                 me.text.line(format!("return {result};"));
             });
@@ -276,7 +275,7 @@ impl<'a, 'p> Body<'a, 'p> {
         // Only a call is worth a name.
         let name = if selector.ends_with(')') { self.temporary() } else { selector.to_owned() };
         if name != selector {
-            let local = self.dialect.local(&Type::Uint, &name, selector, self.prefix);
+            let local = self.dialect.local(&Type::UINT, &name, selector, self.prefix);
             self.text.line(local);
         }
         let (low, high) = arms.split_at(arms.len() / 2);

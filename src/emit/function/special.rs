@@ -3,10 +3,10 @@
 use super::body::Body;
 use super::lookup::{key_words, piece, stride};
 use super::terms::Locals;
-use crate::emit::language::{Type, bare};
+use crate::emit::language::{Type, bare, value};
 use crate::emit::names::input_type;
 use crate::plan::{StepId, renamed};
-use crate::program::{BinaryOp, InputId, InputSet, LevelKind, TernaryOp};
+use crate::program::{BinaryOp, InputId, InputSet, LevelKind, Scalar, TernaryOp};
 
 impl Body<'_, '_> {
     fn named(&mut self, ty: &Type, value: &str) -> String {
@@ -18,7 +18,7 @@ impl Body<'_, '_> {
 
     fn entry(&mut self) -> String {
         let call = format!("{}(key)", self.dialect.global(self.prefix, "arm"));
-        self.named(&Type::Uint, &call)
+        self.named(&Type::UINT, &call)
     }
 
     /// A minimum of sums whose coefficients the lookup holds, or one of the ways of `rest`.
@@ -31,11 +31,12 @@ impl Body<'_, '_> {
             let open = self.dialect.if_open(&format!("{entry} < {}", self.dialect.uint(count as u32)));
             self.text.open(open);
         }
-        let components = plan.program.output.components();
+        let data = plan.program.output.data_type();
+        let components = data.components().len();
         let (first, stride) = (key_words(plan), stride(coefficients, components));
         let uint = |value: usize| self.dialect.uint(value as u32);
         let at = format!("{} + {entry} * {}", uint(first), self.dialect.uint(stride));
-        let at = self.named(&Type::Uint, &at);
+        let at = self.named(&Type::UINT, &at);
         let word = |me: &Self, offset: usize| {
             me.dialect.lookup_call(me.prefix, &format!("{at} + {}", me.dialect.uint(offset as u32)))
         };
@@ -43,7 +44,7 @@ impl Body<'_, '_> {
         for component in 0..components {
             let mut offset = 1 + component * piece(coefficients);
             let sign = self.dialect.float_from_bits(&word(self, offset));
-            let sign = self.named(&Type::Float, &sign);
+            let sign = self.named(&Type::FLOAT, &sign);
             offset += 1;
             let mut least: Option<String> = None;
             for _ in 0..coefficients.width {
@@ -55,7 +56,7 @@ impl Body<'_, '_> {
                     sum = self.dialect.binary(self.prefix, BinaryOp::Add, &sum, &product);
                 }
                 offset += 1 + coefficients.inputs.len();
-                let sum = self.named(&Type::Float, &sum);
+                let sum = self.named(&Type::FLOAT, &sum);
                 least = Some(match least {
                     None => sum,
                     Some(least) => self.dialect.binary(self.prefix, BinaryOp::Min, &least, &sum),
@@ -71,7 +72,7 @@ impl Body<'_, '_> {
                 }
             });
         }
-        let value = self.dialect.value(self.prefix, &plan.program.output, &values);
+        let value = value(self.dialect, self.prefix, &data, values);
         let result = self.dialect.result(self.prefix, &value, &word(self, 0));
         self.text.line(format!("return {result};"));
         if !rest.is_empty() {
@@ -89,8 +90,8 @@ impl Body<'_, '_> {
         let names: Vec<&str> = plan.symmetries.iter().map(|i| program.symmetries[*i].name.as_str()).collect();
         self.text.comment(&format!("The lowest bits say which symmetries turn the inputs: {}.", names.join(", ")));
         let mask = self.dialect.uint((1 << bits) - 1);
-        let turn = self.named(&Type::Uint, &format!("{entry} & {mask}"));
-        let way = self.named(&Type::Uint, &format!("{entry} >> {}", self.dialect.uint(bits as u32)));
+        let turn = self.named(&Type::UINT, &format!("{entry} & {mask}"));
+        let way = self.named(&Type::UINT, &format!("{entry} >> {}", self.dialect.uint(bits as u32)));
 
         let needs = arms.iter().fold(InputSet::default(), |needs, arm| needs.or(self.outline.needs(*arm)));
         let flags = self.turn_inputs(&turn, self.turned(needs));
@@ -104,7 +105,7 @@ impl Body<'_, '_> {
                 self.result.clone_from(&value);
                 let image = self.expr(map, &Locals::default());
                 let back = self.dialect.select(flag, bare(&image), &value);
-                value = self.named(&Type::Value(program.output.clone()), &back);
+                value = self.named(&Type::Data(program.output.data_type()), &back);
             }
         }
         let result = self.dialect.result(self.prefix, &value, &format!("{result}.case_id"));
@@ -117,7 +118,7 @@ impl Body<'_, '_> {
         let mut flags = Vec::new();
         for (bit, index) in plan.symmetries.iter().enumerate() {
             let flag = format!("({turn} & {}) != {}", self.dialect.uint(1 << bit), self.dialect.uint(0));
-            let flag = self.named(&Type::Bool, &flag);
+            let flag = self.named(&Type::BOOL, &flag);
             let symmetry = &program.symmetries[*index];
             let mut images: Vec<(InputId, String)> = Vec::new();
             for (input, image) in symmetry.numbers.iter().filter(|(input, _)| needed.contains(*input)) {
@@ -136,7 +137,7 @@ impl Body<'_, '_> {
                 .collect();
             for (input, value) in turned {
                 let declared = &program.inputs[input.index()];
-                let name = self.named(&input_type(&declared.domain, Type::Uint), &value);
+                let name = self.named(&input_type(&declared.domain, Scalar::Uint).into(), &value);
                 self.renamed.insert(declared.ident.clone(), name);
             }
             flags.push(flag);

@@ -4,9 +4,9 @@ use std::collections::hash_map::Entry;
 use std::collections::{BTreeSet, HashMap};
 
 use super::body::Body;
-use crate::emit::language::{Type, bare};
+use crate::emit::language::{Type, bare, value};
 use crate::plan::Leaf;
-use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node};
+use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, Scalar};
 
 /// The names in scope at a place of the code.
 #[derive(Default, Clone)]
@@ -40,17 +40,18 @@ impl Body<'_, '_> {
                 self.dialect.uint(row.id)
             }
         };
-        let output = &program.output;
-        let components: Vec<String> = if output.is_integer() {
-            let locals = self.computed_constants(&leaf.values, &[]);
-            leaf.values.iter().map(|value| self.integer(*value, &locals)).collect()
-        } else {
-            let mut locals = self.computed_constants(&leaf.values, &[]);
-            self.declare(&leaf.values, &mut locals);
-            leaf.values.iter().map(|value| self.expr(*value, &locals)).collect()
-        };
-        let components: Vec<String> = components.iter().map(|c| bare(c).to_owned()).collect();
-        let value = self.dialect.value(self.prefix, output, &components);
+        let data = program.output.data_type();
+        let components: Vec<(Scalar, ExprId)> =
+            data.components().iter().map(|component| component.scalar).zip(leaf.values.iter().copied()).collect();
+        let mut locals = self.computed_constants(&leaf.values, &[]);
+        let numbers = components.iter().filter(|(scalar, _)| *scalar == Scalar::Float);
+        self.declare(&numbers.map(|(_, value)| *value).collect::<Vec<_>>(), &mut locals);
+        let components = components.iter().map(|(scalar, value)| match scalar {
+            Scalar::Float => bare(&self.expr(*value, &locals)).to_owned(),
+            Scalar::Uint => bare(&self.integer(*value, &locals)).to_owned(),
+            Scalar::Bool => format!("{} != {}", self.integer(*value, &locals), self.dialect.uint(0)),
+        });
+        let value = value(self.dialect, self.prefix, &data, components);
         let result = self.dialect.result(self.prefix, &value, &case);
         self.text.line(format!("return {result};"));
     }
@@ -98,7 +99,7 @@ impl Body<'_, '_> {
             if let Entry::Vacant(entry) = locals.names.entry(constant) {
                 let name = self.temporary();
                 let value = self.expr(constant, &Locals::default());
-                self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
+                self.text.line(self.dialect.local(&Type::FLOAT, &name, bare(&value), self.prefix));
                 entry.insert(name);
             }
         }

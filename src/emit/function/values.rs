@@ -91,7 +91,7 @@ impl Body<'_, '_> {
                     let pair = self.temporary();
                     let function = self.dialect.global(self.prefix, "sincos");
                     let value = call(&function, &[&self.expr(argument, locals)]);
-                    self.text.line(self.dialect.local(&Type::Pair, &pair, &value, self.prefix));
+                    self.text.line(self.dialect.local(&Type::PAIR, &pair, &value, self.prefix));
                     locals.pairs.insert(argument, pair.clone());
                     pair
                 }
@@ -112,7 +112,7 @@ impl Body<'_, '_> {
             _ => self.temporary(),
         };
         let value = self.expr(expr, locals);
-        self.text.line(self.dialect.local(&Type::Float, &name, bare(&value), self.prefix));
+        self.text.line(self.dialect.local(&Type::FLOAT, &name, bare(&value), self.prefix));
         locals.names.insert(expr, name);
         depths.insert(expr, 0);
     }

@@ -8,12 +8,12 @@
 pub(crate) mod wgpu;
 
 use super::language::rust::Rust;
-use super::language::{Dialect, Prefix, Type};
+use super::language::{Dialect, Prefix, Type, structures};
 use super::module;
 use super::names::{Names, fetches, input_type};
 use super::text::{Text, harmless};
 use crate::plan::KeyLayout;
-use crate::program::{Domain, Input, LevelKind, Program};
+use crate::program::{Domain, Input, LevelKind, Program, Scalar};
 use crate::prove::Proved;
 
 /// The extras of a Rust module besides its functions. Each has all that the one before it has.
@@ -114,7 +114,9 @@ impl Side<'_, '_> {
     fn enumerations(&self) -> Vec<String> {
         let camel = &self.prefix.camel;
         let own = ["Result", "Value", "Site", "Inputs", "Fetched", "Pipeline"].map(|name| format!("{camel}{name}"));
-        let mut taken = own.to_vec();
+        let parts = structures(&Rust, &self.prefix, &self.program.output.data_type());
+        let mut taken: Vec<String> = own.into_iter().chain(parts.into_iter().map(|(name, _)| name)).collect();
+        let own = taken.len();
         for set in &self.names.sets {
             let mut name = format!("{camel}{}", capitals(&set.name));
             while taken.contains(&name) {
@@ -122,7 +124,7 @@ impl Side<'_, '_> {
             }
             taken.push(name);
         }
-        taken.split_off(own.len())
+        taken.split_off(own)
     }
 
     fn enumeration(&self, text: &mut Text, index: usize, name: &str) {
@@ -227,7 +229,10 @@ impl Side<'_, '_> {
     /// The fetched inputs as fields.
     pub(super) fn fetched_fields(&self) -> Vec<(String, &'static str)> {
         let fetched = self.program.inputs.iter().filter(|input| input.fetched.is_some());
-        let ty = |input: &Input| if input_type(&input.domain, Type::Uint) == Type::Float { "f32" } else { "u32" };
+        let ty = |input: &Input| match input_type(&input.domain, Scalar::Uint) {
+            Scalar::Float => "f32",
+            Scalar::Uint | Scalar::Bool => "u32",
+        };
         fetched.map(|input| (input.ident.clone(), ty(input))).collect()
     }
 

@@ -8,9 +8,10 @@ use std::fmt::Write as _;
 use super::Side;
 use crate::emit::kernel::columns;
 use crate::emit::kernel::columns::{Entry, Layout, WORKGROUP};
+use crate::emit::language::rust::Rust;
+use crate::emit::language::{self, Dialect};
 use crate::emit::lookup_words;
 use crate::emit::text::Text;
-use crate::program::Output;
 
 /// The pipeline, with `$` for what depends on the table. Lines that end in `//F` are for
 /// tables that fetch, those in `//L` for plans that read a lookup.
@@ -58,19 +59,10 @@ pub(in crate::emit) fn write(side: &Side<'_, '_>, text: &mut Text) {
 
 /// The value made of the words of a row of results, of which the first is the case.
 fn value(side: &Side<'_, '_>) -> String {
-    let number = |index: usize| format!("f32::from_bits(row[{index}])");
-    match &side.program.output {
-        Output::Number => number(1),
-        Output::Enumeration(_) => "row[1]".to_owned(),
-        Output::Vector(size) => format!("[{}]", (1..=*size).map(number).collect::<Vec<_>>().join(", ")),
-        Output::Record(names) => {
-            let fields = names.iter().zip(1..).map(|(name, index)| format!("{name}: {}", number(index)));
-            format!("{} {{ {} }}", side.prefix.value(), fields.collect::<Vec<_>>().join(", "))
-        }
-        Output::List { max, .. } => {
-            format!("[{}]", (1..=max + 1).map(|index| format!("row[{index}]")).collect::<Vec<_>>().join(", "))
-        }
-    }
+    let data = side.program.output.data_type();
+    let components = data.components().into_iter().zip(1..);
+    let components = components.map(|(of, index)| Rust.scalar_of_word(of.scalar, &format!("row[{index}]")));
+    language::value(&Rust, &side.prefix, &data, components)
 }
 
 /// The longest run of `#` in a text: a raw string needs one more.

@@ -10,10 +10,10 @@ use std::fmt::Write;
 
 use crate::emit::language::glsl::{Glsl, GlslVersion};
 use crate::emit::language::wgsl::Wgsl;
-use crate::emit::language::{Dialect, Prefix, Type};
+use crate::emit::language::{Dialect, Prefix, words};
 use crate::emit::module;
-use crate::emit::names::fetches;
-use crate::program::{Domain, LevelKind, Output, Program};
+use crate::emit::names::{fetches, input_type};
+use crate::program::{Domain, Program, Scalar};
 use crate::prove::Proved;
 
 /// Threads of a workgroup.
@@ -73,7 +73,7 @@ impl Layout {
             Entry::Levels => plain,
             Entry::Key => 1 + plain - program.states.digits().len(),
         };
-        let values = program.output.components();
+        let values = program.output.components().len();
         Self { plain, fetched, values, out: 1 + values + fetched.div_ceil(COUNTS_PER_WORD) }
     }
 }
@@ -87,13 +87,8 @@ pub fn wgsl_library(proved: &Proved<'_>, library: &str) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ unused: u32, }}", prefix.site());
     }
-    for (ident, ty) in &fetches {
-        let zero = match ty {
-            Type::Float => "0.0",
-            Type::Bool => "false",
-            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => "0u",
-        };
-        let ty = Wgsl::Plain.ty(ty, &prefix);
+    for (ident, scalar) in &fetches {
+        let (ty, zero) = (Wgsl::Plain.scalar(*scalar), Wgsl::Plain.zero(*scalar));
         let _ =
             writeln!(out, "fn {}_fetch_{ident}(site: {}) -> {ty} {{ return {zero}; }}", prefix.lower, prefix.site());
     }
@@ -119,13 +114,8 @@ pub fn glsl_library(proved: &Proved<'_>, library: &str, version: GlslVersion) ->
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ uint unused; }};", prefix.site());
     }
-    for (ident, ty) in &fetches {
-        let zero = match ty {
-            Type::Float => "0.0",
-            Type::Bool => "false",
-            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => "0u",
-        };
-        let ty = glsl.ty(ty, &prefix);
+    for (ident, scalar) in &fetches {
+        let (ty, zero) = (glsl.scalar(*scalar), glsl.zero(*scalar));
         let _ = writeln!(out, "{ty} {}_fetch_{ident}({} site) {{ return {zero}; }}", prefix.lower, prefix.site());
     }
     if proved.plan().reads_lookup() {
@@ -153,19 +143,14 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "\nstruct {} {{ row: u32, }}", prefix.site());
     }
-    for (index, (ident, ty)) in fetches.iter().enumerate() {
-        let word = format!("$fetched[site.row * {}u + {index}u]", layout.fetched);
-        let value = match ty {
-            Type::Float => format!("bitcast<f32>({word})"),
-            Type::Bool => format!("{word} != 0u"),
-            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => word,
-        };
+    for (index, (ident, scalar)) in fetches.iter().enumerate() {
+        let value = Wgsl::Plain.scalar_of_word(*scalar, &fetched_word(&layout, index));
         let _ = writeln!(
             out,
             "fn {}_fetch_{ident}(site: {}) -> {} {{\n    {}\n    return {value};\n}}",
             prefix.lower,
             prefix.site(),
-            Wgsl::Plain.ty(ty, &prefix),
+            Wgsl::Plain.scalar(*scalar),
             count_fetch(&layout, index),
         );
     }
@@ -176,14 +161,14 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     );
     out += "    let row = id.x;\n    if (row >= $plain[0]) {\n        return;\n    }\n";
     let _ = writeln!(out, "    let at = 1u + row * {}u;", layout.plain);
-    let mut arguments = arguments(program, entry, "bitcast<f32>");
+    let mut arguments = arguments(program, entry, &Wgsl::Plain);
     if !fetches.is_empty() {
         arguments.push(format!("{}(row)", prefix.site()));
     }
     let [.., levels_case, key_case] = Wgsl::Plain.entry_names(&prefix);
     let function = if entry == Entry::Key { key_case } else { levels_case };
     let _ = writeln!(out, "    let result = {function}({});", arguments.join(", "));
-    store(&mut out, program, &layout, "bitcast<u32>");
+    store(&mut out, program, &layout, &Wgsl::Plain);
     out += "}\n";
     module::write(proved, &Wgsl::Plain) + &name_buffers(program, &prefix, &out)
 }
@@ -214,17 +199,12 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ uint row; }};", prefix.site());
     }
-    for (index, (ident, ty)) in fetches.iter().enumerate() {
-        let word = format!("$fetched[site.row * {}u + {index}u]", layout.fetched);
-        let value = match ty {
-            Type::Float => format!("uintBitsToFloat({word})"),
-            Type::Bool => format!("{word} != 0u"),
-            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => word,
-        };
+    for (index, (ident, scalar)) in fetches.iter().enumerate() {
+        let value = glsl.scalar_of_word(*scalar, &fetched_word(&layout, index));
         let _ = writeln!(
             out,
             "{} {}_fetch_{ident}({} site) {{\n    {}\n    return {value};\n}}",
-            glsl.ty(ty, &prefix),
+            glsl.scalar(*scalar),
             prefix.lower,
             prefix.site(),
             count_fetch(&layout, index),
@@ -235,14 +215,14 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
         "void main() {\n    uint row = gl_GlobalInvocationID.x;\n    if (row >= $plain[0]) {\n        return;\n    }\n",
     );
     let _ = writeln!(out, "    uint at = 1u + row * {}u;", layout.plain);
-    let mut arguments = arguments(program, entry, "uintBitsToFloat");
+    let mut arguments = arguments(program, entry, &glsl);
     if !fetches.is_empty() {
         arguments.push(format!("{}(row)", prefix.site()));
     }
     let [.., levels_case, key_case] = glsl.entry_names(&prefix);
     let function = if entry == Entry::Key { key_case } else { levels_case };
     let _ = writeln!(out, "    {} result = {function}({});", prefix.result(), arguments.join(", "));
-    store(&mut out, program, &layout, "floatBitsToUint");
+    store(&mut out, program, &layout, &glsl);
     out += "}\n";
     before + &name_buffers(program, &prefix, &out)
 }
@@ -268,38 +248,30 @@ fn count_fetch(layout: &Layout, index: usize) -> String {
     format!("{place} = {place} + {}u;", 1_u32 << (4 * (index % COUNTS_PER_WORD)))
 }
 
-fn arguments(program: &Program, entry: Entry, to_float: &str) -> Vec<String> {
+/// The word that holds a fetched input of the row of a site.
+pub(in crate::emit) fn fetched_word(layout: &Layout, index: usize) -> String {
+    format!("$fetched[site.row * {}u + {index}u]", layout.fetched)
+}
+
+fn arguments(program: &Program, entry: Entry, dialect: &dyn Dialect) -> Vec<String> {
     let plain = program.inputs.iter().filter(|input| input.fetched.is_none());
     let word = |index: usize| format!("$plain[at + {index}u]");
     match entry {
         Entry::Key => {
             let continuous = plain.filter(|input| matches!(input.domain, Domain::Continuous { .. })).count();
-            [word(0)].into_iter().chain((1..=continuous).map(|i| format!("{to_float}({})", word(i)))).collect()
+            let numbers = (1..=continuous).map(|index| dialect.float_from_bits(&word(index)));
+            [word(0)].into_iter().chain(numbers).collect()
         }
-        Entry::Levels => plain
-            .enumerate()
-            .map(|(i, input)| match &input.domain {
-                Domain::Discrete(levels) if levels.kind == LevelKind::Bool => format!("{} != 0u", word(i)),
-                Domain::Discrete(_) | Domain::Continuous { .. } => format!("{to_float}({})", word(i)),
-            })
-            .collect(),
+        Entry::Levels => {
+            let plain = plain.enumerate();
+            plain.map(|(i, input)| dialect.scalar_of_word(input_type(&input.domain, Scalar::Float), &word(i))).collect()
+        }
     }
 }
 
-fn store(out: &mut String, program: &Program, layout: &Layout, to_bits: &str) {
-    let words = ["result.case_id".to_owned()].into_iter().chain(value_words(&program.output, "result.value", to_bits));
-    for (index, word) in words.enumerate() {
+fn store(out: &mut String, program: &Program, layout: &Layout, dialect: &dyn Dialect) {
+    let value = words(dialect, &program.output.data_type(), "result.value");
+    for (index, word) in ["result.case_id".to_owned()].into_iter().chain(value).enumerate() {
         let _ = writeln!(out, "    $out[row * {}u + {index}u] = {word};", layout.out);
-    }
-}
-
-/// The components of a value, each as a word.
-pub(in crate::emit) fn value_words(output: &Output, value: &str, to_bits: &str) -> Vec<String> {
-    match output {
-        Output::Number => vec![format!("{to_bits}({value})")],
-        Output::Enumeration(_) => vec![value.to_owned()],
-        Output::Record(names) => names.iter().map(|name| format!("{to_bits}({value}.{name})")).collect(),
-        Output::Vector(size) => (0..*size).map(|i| format!("{to_bits}({value}[{i}])")).collect(),
-        Output::List { max, .. } => (0..=*max).map(|i| format!("{value}[{i}]")).collect(),
     }
 }

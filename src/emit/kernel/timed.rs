@@ -14,9 +14,9 @@
 
 use std::fmt::Write;
 
-use super::columns::{Entry, Layout, WORKGROUP, name_buffers, value_words};
+use super::columns::{Entry, Layout, WORKGROUP, fetched_word, name_buffers};
 use crate::emit::language::wgsl::Wgsl;
-use crate::emit::language::{Dialect, Prefix, Type};
+use crate::emit::language::{Dialect, Prefix, words};
 use crate::emit::module;
 use crate::emit::names::fetches;
 use crate::program::{Domain, Program};
@@ -36,14 +36,9 @@ pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ row: u32, }}", prefix.site());
     }
-    for (index, (ident, ty)) in fetches.iter().enumerate() {
-        let word = format!("$fetched[site.row * {}u + {index}u]", layout.fetched);
-        let value = match ty {
-            Type::Float => format!("bitcast<f32>({word})"),
-            Type::Bool => format!("{word} != 0u"),
-            Type::Uint | Type::Pair | Type::Value(_) | Type::Result | Type::Site => word,
-        };
-        let (site, ty) = (prefix.site(), Wgsl::Plain.ty(ty, &prefix));
+    for (index, (ident, scalar)) in fetches.iter().enumerate() {
+        let value = Wgsl::Plain.scalar_of_word(*scalar, &fetched_word(&layout, index));
+        let (site, ty) = (prefix.site(), Wgsl::Plain.scalar(*scalar));
         let _ = writeln!(out, "fn {}_fetch_{ident}(site: {site}) -> {ty} {{ return {value}; }}", prefix.lower);
     }
     let numbers = (1..layout.plain).map(|index| format!("number_{index}"));
@@ -53,7 +48,7 @@ pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
     }
     let [_, key, ..] = Wgsl::Plain.entry_names(&prefix);
     let evaluation = format!("let value = {key}({});", arguments.join(", "));
-    kernel(&mut out, program, &layout, rows, &evaluation, &value_words(&program.output, "value", "bitcast<u32>"));
+    kernel(&mut out, program, &layout, rows, &evaluation, &words(&Wgsl::Plain, &program.output.data_type(), "value"));
     module::write(proved, &Wgsl::Plain) + &name_buffers(program, &prefix, &out)
 }
 

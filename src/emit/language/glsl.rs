@@ -2,7 +2,7 @@
 //! and `switch`, which all of them have, and no `fma`, which ES 300 lacks.
 
 use super::{Dialect, Prefix, Type};
-use crate::program::Output;
+use crate::program::Scalar;
 use crate::program::operators::{Spelling, Spellings};
 
 /// A version of GLSL.
@@ -33,23 +33,23 @@ pub(in crate::emit) struct Glsl {
 }
 
 impl Dialect for Glsl {
-    fn ty(&self, ty: &Type, prefix: &Prefix) -> String {
-        match ty {
-            Type::Float => "float".to_owned(),
-            Type::Uint => "uint".to_owned(),
-            Type::Bool => "bool".to_owned(),
-            Type::Value(Output::Number) => "float".to_owned(),
-            Type::Pair => "vec2".to_owned(),
-            Type::Value(Output::Record(_)) => prefix.value(),
-            Type::Value(Output::Vector(size)) => format!("vec{size}"),
-            Type::Value(Output::Enumeration(_)) => "uint".to_owned(),
-            Type::Value(Output::List { max, .. }) => format!("uint[{}]", max + 1),
-            Type::Result => prefix.result(),
-            Type::Site => prefix.site(),
+    fn scalar(&self, scalar: Scalar) -> &'static str {
+        match scalar {
+            Scalar::Float => "float",
+            Scalar::Uint => "uint",
+            Scalar::Bool => "bool",
         }
     }
 
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String {
+    fn vector(&self, size: usize) -> String {
+        format!("vec{size}")
+    }
+
+    fn array(&self, scalar: Scalar, length: usize) -> String {
+        format!("{}[{length}]", self.scalar(scalar))
+    }
+
+    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {
         let mut out = format!("// Include it after `{}`", self.version.version_line());
         if fetches.is_empty() {
             out += ".\n";
@@ -59,8 +59,8 @@ impl Dialect for Glsl {
                 "//   struct {} {{ ... }};  what a fetch needs to know, a texel for instance\n",
                 prefix.site()
             );
-            for (ident, ty) in fetches {
-                let ty = self.ty(ty, prefix);
+            for (ident, scalar) in fetches {
+                let ty = self.scalar(*scalar);
                 out += &format!("//   {ty} {}_fetch_{ident}({} site)\n", prefix.lower, prefix.site());
             }
         }
@@ -82,14 +82,9 @@ impl Dialect for Glsl {
         format!("const uint {name} = {value}u;")
     }
 
-    fn result_struct(&self, prefix: &Prefix, output: &Output) -> String {
-        let ty = self.ty(&Type::Value(output.clone()), prefix);
-        format!("struct {} {{\n    {ty} value;\n    uint case_id;\n}};", prefix.result())
-    }
-
-    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String {
-        let fields: String = names.iter().map(|name| format!("    float {name};\n")).collect();
-        format!("struct {} {{\n{fields}}};", prefix.value())
+    fn structure(&self, name: &str, fields: &[(&str, String)]) -> String {
+        let fields: String = fields.iter().map(|(name, ty)| format!("    {ty} {name};\n")).collect();
+        format!("struct {name} {{\n{fields}}};")
     }
 
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String {
@@ -126,16 +121,11 @@ impl Dialect for Glsl {
         format!("uintBitsToFloat({word})")
     }
 
-    fn spelling(&self, of: Spellings) -> Spelling {
-        of.glsl
+    fn bits_of_float(&self, number: &str) -> String {
+        format!("floatBitsToUint({number})")
     }
 
-    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {
-        match output {
-            Output::Number | Output::Enumeration(_) => components.concat(),
-            Output::Record(_) => format!("{}({})", prefix.value(), components.join(", ")),
-            Output::Vector(size) => format!("vec{size}({})", components.join(", ")),
-            Output::List { max, .. } => format!("uint[{}]({})", max + 1, components.join(", ")),
-        }
+    fn spelling(&self, of: Spellings) -> Spelling {
+        of.glsl
     }
 }

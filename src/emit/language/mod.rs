@@ -1,26 +1,38 @@
 //! What differs between the languages that Umbrage prints itself.
 
+mod composite;
 pub(crate) mod glsl;
 pub(crate) mod rust;
 pub(crate) mod wgsl;
 
 use crate::program::operators::{Notation, Spelling, Spellings};
-use crate::program::{BinaryOp, Output, TernaryOp, UnaryOp};
+use crate::program::{BinaryOp, DataType, Scalar, TernaryOp, UnaryOp};
+
+pub(super) use composite::{structures, value, words};
 
 /// A type in generated code.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Type {
-    Float,
-    Uint,
-    Bool,
-    /// A sine and a cosine.
-    Pair,
-    /// The table's output.
-    Value(Output),
+    /// The type of an input, of the output, or of something in between.
+    Data(DataType),
     /// The output together with the case taken.
     Result,
     /// What the host's fetch functions are given.
     Site,
+}
+
+impl Type {
+    pub(super) const FLOAT: Type = Type::Data(DataType::Scalar(Scalar::Float));
+    pub(super) const UINT: Type = Type::Data(DataType::Scalar(Scalar::Uint));
+    pub(super) const BOOL: Type = Type::Data(DataType::Scalar(Scalar::Bool));
+    /// A sine and a cosine.
+    pub(super) const PAIR: Type = Type::Data(DataType::Vector(2));
+}
+
+impl From<Scalar> for Type {
+    fn from(scalar: Scalar) -> Self {
+        Type::Data(DataType::Scalar(scalar))
+    }
 }
 
 /// Names that a table contributes to generated code.
@@ -61,10 +73,35 @@ impl Prefix {
 
 /// How a language says things. What is not overridden is the way of the C family.
 pub(super) trait Dialect {
+    /// The name of a scalar type.
+    fn scalar(&self, scalar: Scalar) -> &'static str;
+    /// The name of the type of a vector of numbers.
+    fn vector(&self, size: usize) -> String;
+    /// The name of the type of an array.
+    fn array(&self, scalar: Scalar, length: usize) -> String;
+    /// The name of a type of data, in which structures begin with `structure`.
+    fn data(&self, data: &DataType, structure: &str) -> String {
+        match data {
+            DataType::Scalar(scalar) => self.scalar(*scalar).to_owned(),
+            DataType::Vector(size) => self.vector(*size),
+            DataType::Array(scalar, length) => self.array(*scalar, *length),
+            DataType::Structure(_) => structure.to_owned(),
+        }
+    }
     /// The name of a type.
-    fn ty(&self, ty: &Type, prefix: &Prefix) -> String;
+    fn ty(&self, ty: &Type, prefix: &Prefix) -> String {
+        match ty {
+            Type::Data(data) => self.data(data, &prefix.value()),
+            Type::Result => prefix.result(),
+            Type::Site => self.site(prefix),
+        }
+    }
+    /// The type of what the host's fetch functions are given.
+    fn site(&self, prefix: &Prefix) -> String {
+        prefix.site()
+    }
     /// The first lines of a file, after the comment.
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String;
+    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String;
     /// Functions that the language lacks, for a table that needs remainders.
     fn remainder(&self, _: &Prefix) -> String {
         String::new()
@@ -89,22 +126,16 @@ pub(super) trait Dialect {
             ),
             ("sign_c", &format!("1.0 - 2.0 * (next - 2.0 * {})", self.unary(prefix, UnaryOp::Floor, "(next * 0.5)"))),
         ];
-        let x = [("x".to_owned(), Type::Float)];
+        let x = [("x".to_owned(), Type::FLOAT)];
         let mut out = format!(
             "// Sine and cosine, as accurate on every device; the language promises too little for its own.\n{}\n",
-            self.function(&name, &x, &Type::Pair, prefix)
+            self.function(&name, &x, &Type::PAIR, prefix)
         );
         for (name, value) in lines {
-            out += &format!("    {}\n", self.local(&Type::Float, name, value, prefix));
+            out += &format!("    {}\n", self.local(&Type::FLOAT, name, value, prefix));
         }
-        out + &format!(
-            "    return {};\n}}",
-            self.make_pair("(s * even + c * odd) * sign_s", "(c * even + s * odd) * sign_c")
-        )
-    }
-    /// A pair of numbers.
-    fn make_pair(&self, first: &str, second: &str) -> String {
-        format!("vec2({first}, {second})")
+        let pair = ["(s * even + c * odd) * sign_s", "(c * even + s * odd) * sign_c"].map(str::to_owned);
+        out + &format!("    return {};\n}}", self.collection(&self.vector(2), &pair))
     }
     /// One of a pair of numbers.
     fn of_pair(&self, pair: &str, second: bool) -> String {
@@ -112,8 +143,8 @@ pub(super) trait Dialect {
     }
     /// A constant of the module.
     fn constant(&self, name: &str, value: u32) -> String;
-    /// The structure of value and case.
-    fn result_struct(&self, prefix: &Prefix, output: &Output) -> String;
+    /// The declaration of a structure.
+    fn structure(&self, name: &str, fields: &[(&str, String)]) -> String;
     /// The first line of a function.
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String;
     /// Declares a local constant.
@@ -152,6 +183,32 @@ pub(super) trait Dialect {
     fn bool_to_uint(&self, condition: &str) -> String;
     /// The number whose bits a word holds.
     fn float_from_bits(&self, word: &str) -> String;
+    /// The word that holds the bits of a number.
+    fn bits_of_float(&self, number: &str) -> String;
+    /// The scalar that a word holds.
+    fn scalar_of_word(&self, scalar: Scalar, word: &str) -> String {
+        match scalar {
+            Scalar::Float => self.float_from_bits(word),
+            Scalar::Uint => word.to_owned(),
+            Scalar::Bool => format!("{word} != {}", self.uint(0)),
+        }
+    }
+    /// The word that holds a scalar.
+    fn word_of_scalar(&self, scalar: Scalar, value: &str) -> String {
+        match scalar {
+            Scalar::Float => self.bits_of_float(value),
+            Scalar::Uint => value.to_owned(),
+            Scalar::Bool => self.bool_to_uint(value),
+        }
+    }
+    /// Nothing, as a scalar.
+    fn zero(&self, scalar: Scalar) -> String {
+        match scalar {
+            Scalar::Float => self.number(0.0),
+            Scalar::Uint => self.uint(0),
+            Scalar::Bool => "false".to_owned(),
+        }
+    }
     /// Calls the host for a fetched input.
     fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
         format!("{}_fetch_{ident}(site)", prefix.lower)
@@ -192,13 +249,18 @@ pub(super) trait Dialect {
             Spelling::OfSincos { second } => self.of_pair(&call(&self.global(prefix, "sincos"), operands), second),
         }
     }
-    /// The structure of a value that consists of several numbers with names.
-    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String;
-    /// The output made of its components.
-    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String;
+    /// A vector or an array, made of its parts.
+    fn collection(&self, ty: &str, parts: &[String]) -> String {
+        format!("{ty}({})", parts.join(", "))
+    }
+    /// A structure, made of its fields.
+    fn structure_of(&self, name: &str, fields: &[(&str, String)]) -> String {
+        let values: Vec<&str> = fields.iter().map(|(_, value)| value.as_str()).collect();
+        format!("{name}({})", values.join(", "))
+    }
     /// Value and case together.
     fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
-        format!("{}({value}, {case})", prefix.result())
+        self.structure_of(&prefix.result(), &[("value", value.to_owned()), ("case_id", case.to_owned())])
     }
     /// The function of the host that reads a word of the lookup, where it is one.
     fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {

@@ -3,30 +3,34 @@
 //! is added by [`host`](crate::emit::host).
 
 use super::{Dialect, Prefix, Type};
-use crate::program::Output;
+use crate::program::Scalar;
 use crate::program::operators::{Spelling, Spellings};
 
 /// Rust.
 pub(in crate::emit) struct Rust;
 
 impl Dialect for Rust {
-    fn ty(&self, ty: &Type, prefix: &Prefix) -> String {
-        match ty {
-            Type::Float => "f32".to_owned(),
-            Type::Uint => "u32".to_owned(),
-            Type::Bool => "bool".to_owned(),
-            Type::Value(Output::Number) => "f32".to_owned(),
-            Type::Pair => "[f32; 2]".to_owned(),
-            Type::Value(Output::Record(_)) => prefix.value(),
-            Type::Value(Output::Vector(size)) => format!("[f32; {size}]"),
-            Type::Value(Output::Enumeration(_)) => "u32".to_owned(),
-            Type::Value(Output::List { max, .. }) => format!("[u32; {}]", max + 1),
-            Type::Result => prefix.result(),
-            Type::Site => format!("&mut impl {}", prefix.site()),
+    fn scalar(&self, scalar: Scalar) -> &'static str {
+        match scalar {
+            Scalar::Float => "f32",
+            Scalar::Uint => "u32",
+            Scalar::Bool => "bool",
         }
     }
 
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String {
+    fn vector(&self, size: usize) -> String {
+        self.array(Scalar::Float, size)
+    }
+
+    fn array(&self, scalar: Scalar, length: usize) -> String {
+        format!("[{}; {length}]", self.scalar(scalar))
+    }
+
+    fn site(&self, prefix: &Prefix) -> String {
+        format!("&mut impl {}", prefix.site())
+    }
+
+    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {
         let mut out = format!(
             "#[allow(non_camel_case_types, non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub)]\n#[allow(unused_parens, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
             prefix.lower
@@ -34,8 +38,8 @@ impl Dialect for Rust {
         if !fetches.is_empty() {
             out += "/// Produces fetched inputs on demand; levels as their index.\n";
             out += &format!("pub trait {} {{\n", prefix.site());
-            for (ident, ty) in fetches {
-                out += &format!("    fn {ident}(&mut self) -> {};\n", self.ty(ty, prefix));
+            for (ident, scalar) in fetches {
+                out += &format!("    fn {ident}(&mut self) -> {};\n", self.scalar(*scalar));
             }
             out += "}\n";
         }
@@ -46,21 +50,9 @@ impl Dialect for Rust {
         format!("pub const {name}: u32 = {value};")
     }
 
-    fn result_struct(&self, prefix: &Prefix, output: &Output) -> String {
-        let ty = self.ty(&Type::Value(output.clone()), prefix);
-        format!(
-            "#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {} {{\n    pub value: {ty},\n    pub case_id: u32,\n}}",
-            prefix.result()
-        )
-    }
-
-    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String {
-        let fields: String = names.iter().map(|name| format!("    pub {name}: f32,\n")).collect();
-        format!("#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {} {{\n{fields}}}", prefix.value())
-    }
-
-    fn make_pair(&self, first: &str, second: &str) -> String {
-        format!("[{first}, {second}]")
+    fn structure(&self, name: &str, fields: &[(&str, String)]) -> String {
+        let fields: String = fields.iter().map(|(name, ty)| format!("    pub {name}: {ty},\n")).collect();
+        format!("#[derive(Debug, Clone, Copy, PartialEq)]\npub struct {name} {{\n{fields}}}")
     }
 
     fn of_pair(&self, pair: &str, second: bool) -> String {
@@ -121,23 +113,21 @@ impl Dialect for Rust {
         format!("f32::from_bits({word})")
     }
 
+    fn bits_of_float(&self, number: &str) -> String {
+        format!("f32::to_bits({number})")
+    }
+
     fn spelling(&self, of: Spellings) -> Spelling {
         of.rust
     }
 
-    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {
-        match output {
-            Output::Number | Output::Enumeration(_) => components.concat(),
-            Output::Record(names) => {
-                let fields: Vec<String> = names.iter().zip(components).map(|(n, c)| format!("{n}: {c}")).collect();
-                format!("{} {{ {} }}", prefix.value(), fields.join(", "))
-            }
-            Output::Vector(_) | Output::List { .. } => format!("[{}]", components.join(", ")),
-        }
+    fn collection(&self, _: &str, parts: &[String]) -> String {
+        format!("[{}]", parts.join(", "))
     }
 
-    fn result(&self, prefix: &Prefix, value: &str, case: &str) -> String {
-        format!("{} {{ value: {value}, case_id: {case} }}", prefix.result())
+    fn structure_of(&self, name: &str, fields: &[(&str, String)]) -> String {
+        let fields: Vec<String> = fields.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+        format!("{name} {{ {} }}", fields.join(", "))
     }
 
     fn lookup_import(&self, prefix: &Prefix) -> String {

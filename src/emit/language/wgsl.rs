@@ -1,7 +1,7 @@
 //! WGSL.
 
 use super::{Dialect, Prefix, Type};
-use crate::program::Output;
+use crate::program::Scalar;
 use crate::program::operators::{Spelling, Spellings};
 
 /// WGSL, with nothing but functions, constants and one structure.
@@ -14,23 +14,23 @@ pub(in crate::emit) enum Wgsl {
 }
 
 impl Dialect for Wgsl {
-    fn ty(&self, ty: &Type, prefix: &Prefix) -> String {
-        match ty {
-            Type::Float => "f32".to_owned(),
-            Type::Uint => "u32".to_owned(),
-            Type::Bool => "bool".to_owned(),
-            Type::Value(Output::Number) => "f32".to_owned(),
-            Type::Pair => "vec2<f32>".to_owned(),
-            Type::Value(Output::Record(_)) => prefix.value(),
-            Type::Value(Output::Vector(size)) => format!("vec{size}<f32>"),
-            Type::Value(Output::Enumeration(_)) => "u32".to_owned(),
-            Type::Value(Output::List { max, .. }) => format!("array<u32, {}>", max + 1),
-            Type::Result => prefix.result(),
-            Type::Site => prefix.site(),
+    fn scalar(&self, scalar: Scalar) -> &'static str {
+        match scalar {
+            Scalar::Float => "f32",
+            Scalar::Uint => "u32",
+            Scalar::Bool => "bool",
         }
     }
 
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Type)]) -> String {
+    fn vector(&self, size: usize) -> String {
+        format!("vec{size}<f32>")
+    }
+
+    fn array(&self, scalar: Scalar, length: usize) -> String {
+        format!("array<{}, {length}>", self.scalar(scalar))
+    }
+
+    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {
         if fetches.is_empty() {
             return String::new();
         }
@@ -39,8 +39,8 @@ impl Dialect for Wgsl {
             Wgsl::Module => "// To be supplied by the host, in the module that is imported above:\n",
         });
         out += &format!("//   struct {} {{ ... }}  what a fetch needs to know, a texel for instance\n", prefix.site());
-        for (ident, ty) in fetches {
-            let ty = self.ty(ty, prefix);
+        for (ident, scalar) in fetches {
+            let ty = self.scalar(*scalar);
             out += &format!("//   fn {}_fetch_{ident}(site: {}) -> {ty}\n", prefix.lower, prefix.site());
         }
         out
@@ -50,18 +50,9 @@ impl Dialect for Wgsl {
         format!("const {name}: u32 = {value}u;")
     }
 
-    fn result_struct(&self, prefix: &Prefix, output: &Output) -> String {
-        let ty = self.ty(&Type::Value(output.clone()), prefix);
-        format!("struct {} {{\n    value: {ty},\n    case_id: u32,\n}}", prefix.result())
-    }
-
-    fn value_struct(&self, prefix: &Prefix, names: &[String]) -> String {
-        let fields: String = names.iter().map(|name| format!("    {name}: f32,\n")).collect();
-        format!("struct {} {{\n{fields}}}", prefix.value())
-    }
-
-    fn make_pair(&self, first: &str, second: &str) -> String {
-        format!("vec2<f32>({first}, {second})")
+    fn structure(&self, name: &str, fields: &[(&str, String)]) -> String {
+        let fields: String = fields.iter().map(|(name, ty)| format!("    {name}: {ty},\n")).collect();
+        format!("struct {name} {{\n{fields}}}")
     }
 
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String {
@@ -102,16 +93,11 @@ impl Dialect for Wgsl {
         format!("bitcast<f32>({word})")
     }
 
-    fn spelling(&self, of: Spellings) -> Spelling {
-        of.wgsl
+    fn bits_of_float(&self, number: &str) -> String {
+        format!("bitcast<u32>({number})")
     }
 
-    fn value(&self, prefix: &Prefix, output: &Output, components: &[String]) -> String {
-        match output {
-            Output::Number | Output::Enumeration(_) => components.concat(),
-            Output::Record(_) => format!("{}({})", prefix.value(), components.join(", ")),
-            Output::Vector(size) => format!("vec{size}<f32>({})", components.join(", ")),
-            Output::List { max, .. } => format!("array<u32, {}>({})", max + 1, components.join(", ")),
-        }
+    fn spelling(&self, of: Spellings) -> Spelling {
+        of.wgsl
     }
 }

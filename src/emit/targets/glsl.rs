@@ -3,7 +3,6 @@
 use super::{Constant, Definition, joined};
 use crate::diag::Failure;
 use crate::emit::{GlslVersion, glsl, glsl_module, kernel};
-use crate::program::Output;
 use crate::prove::Proved;
 
 pub(super) static V450: Definition = Definition {
@@ -34,7 +33,7 @@ fn validated(plans: &[Proved<'_>]) -> Result<String, Failure> {
     let version = GlslVersion::V450;
     let source = joined(plans, |plan| glsl(plan, version));
     // naga's GLSL front end gives an array another type inside of a structure than outside.
-    let readable = !plans.iter().any(|plan| matches!(plan.plan().program.output, Output::List { .. }));
+    let readable = !plans.iter().any(|plan| plan.plan().program.output.data_type().has_array());
     if let Some(first) = plans.first().filter(|_| readable) {
         glsl_module(first.plan().program, &kernel::columns::glsl_library(first, &source, version))?;
     }

@@ -33,7 +33,7 @@ fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let program = setting.program;
     let key = KeyLayout::new(program)?;
     key.fits(MAX_BUFFER_BITS, "use `ladder`")?;
-    if program.output.is_integer() {
+    if !program.output.is_real() {
         return Err("its output is no number; use `switch` or `ladder`".to_owned());
     }
     let mut builder = Builder::new(program);

@@ -5,9 +5,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::{Lowering, Result, SetId, examples, keep};
 use crate::diag::{Code, Diagnostic, Span, Spanned, codes};
+use crate::program::InputId;
 use crate::program::domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace};
 use crate::program::pool::InputSet;
-use crate::program::{InputId, Output};
 use crate::table::{self, names};
 use crate::text::closest::nearest;
 
@@ -223,19 +223,6 @@ impl<'t> Lowering<'t> {
         })
     }
 
-    /// A level set that a result can be of. A condition has no levels in an expression.
-    fn find_named_set(&self, name: &Spanned<String>) -> Result<SetId> {
-        match self.find_set(name)? {
-            SetId::BOOL => Err(Diagnostic::error(
-                codes::DOMAIN,
-                format!("`{}` is a condition, it has no levels", name.value),
-            )
-            .at(name.span, "expected named levels or integers")
-            .help("declare levels for the output under `levels`, for instance \"answer\": {\"no\": 0, \"yes\": 1}")),
-            set => Ok(set),
-        }
-    }
-
     pub(super) fn too_many_states(&self, product: f64) -> Diagnostic {
         let mut error = Diagnostic::error(
             codes::TOO_MANY_STATES,
@@ -257,22 +244,6 @@ impl<'t> Lowering<'t> {
         error
             .help(format!("every state is proved one by one, so there can be at most {}", StateSpace::MAX))
             .help("declare inputs that few cases need as `fetched`, or split the table")
-    }
-
-    pub(super) fn declare_output(&mut self) -> Result<()> {
-        self.output = match &self.table.output.value {
-            table::Output::Number(_) => Output::Number,
-            table::Output::Vector(size, _) => Output::Vector(*size),
-            table::Output::Enumeration(of) => {
-                self.output_set = self.find_named_set(of)?;
-                Output::Enumeration(self.sets[self.output_set.0].clone())
-            }
-            table::Output::List { of, max } => {
-                self.output_set = self.find_named_set(of)?;
-                Output::List { levels: self.sets[self.output_set.0].clone(), max: *max }
-            }
-        };
-        Ok(())
     }
 }
 

@@ -28,20 +28,20 @@ impl Lowering<'_> {
         let expected = self.expected_output();
         let term = self.term(&example.value, &Env::default(), expected)?;
         let parts = self.components(term, example.value.span)?;
-        let values = parts.iter().map(|part| {
-            self.pool.constant(*part).ok_or_else(|| {
-                Diagnostic::error(codes::BAD_EXAMPLE, "an expected value is a constant")
-                    .at(example.value.span, "depends on inputs")
-            })
-        });
-        let expected = values.collect::<Result<Vec<f64>>>()?;
-        if let Some((lo, hi)) = self.clamp()
-            && let Some(value) = expected.iter().find(|value| !(lo..=hi).contains(*value))
-        {
-            let message = format!("the expected value {value} is not between the bounds {lo} and {hi} of the output");
-            return Err(Diagnostic::error(codes::BAD_EXAMPLE, message)
-                .at(example.value.span, "no result is ever this")
-                .at(self.table.output.span, "clamped here"));
+        let mut expected = Vec::with_capacity(parts.len());
+        for part in parts {
+            let Some(value) = self.pool.constant(part.value) else {
+                return Err(Diagnostic::error(codes::BAD_EXAMPLE, "an expected value is a constant")
+                    .at(example.value.span, "depends on inputs"));
+            };
+            if let Some((lo, hi)) = part.clamp.filter(|(lo, hi)| !(*lo..=*hi).contains(&value)) {
+                let message =
+                    format!("the expected value {value} is not between the bounds {lo} and {hi} of the output");
+                return Err(Diagnostic::error(codes::BAD_EXAMPLE, message)
+                    .at(example.value.span, "no result is ever this")
+                    .at(self.table.output.span, "clamped here"));
+            }
+            expected.push(value);
         }
         Ok(Example { row, span: example.span, inputs, expected })
     }

@@ -6,12 +6,12 @@
 
 use std::collections::HashMap;
 
-use super::terms::{Expected, Term};
-use super::{Lowering, Result, SetId, calls, functions::Callee, keep, once, written};
+use super::terms::Expected;
+use super::{Lowering, Result, calls, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
 use crate::program::operators::Operator;
-use crate::program::{Accuracy, Assumption, Function, Limit, Line, Output, Program, Row};
+use crate::program::{Accuracy, Assumption, Function, Limit, Line, Program, Row};
 use crate::table::{self, FunctionBody, HitPolicy, Table, names};
 use crate::text::closest::nearest;
 
@@ -232,12 +232,12 @@ impl<'t> Lowering<'t> {
             hit_policy: HitPolicy::First,
             hit_policy_span: function.name.span,
             fetched: self.fetched(),
+            output: self.resolved(&self.output),
             inputs: self.inputs,
             states,
             pool: self.pool,
             rows,
             default,
-            output: self.output,
             assumptions,
             draw: Vec::new(),
             symmetries: Vec::new(),
@@ -254,23 +254,6 @@ impl<'t> Lowering<'t> {
             exhibit: table.exhibit.clone(),
             written: written::shared(table, &function.name.value),
         })
-    }
-
-    /// Infers the output of a function from its value.
-    fn infer_output(&mut self, term: &Term, span: crate::diag::Span) -> Result<()> {
-        self.output = match term {
-            Term::Number(_) => Output::Number,
-            Term::Vector(parts) => Output::Vector(parts.len()),
-            Term::Record(parts) => Output::Record(parts.iter().map(|(name, _)| name.clone()).collect()),
-            Term::Bool(_) | Term::Level(..) | Term::List(_) => {
-                let message = format!("a function returns numbers, but this is {}", self.describe(term));
-                return Err(Diagnostic::error(codes::OUTPUTS, message)
-                    .at(span, "not a number, vector or record")
-                    .help("`f32(...)` gives the number of a level or condition"));
-            }
-        };
-        self.output_set = SetId::BOOL;
-        Ok(())
     }
 
     fn limit(&mut self, limit: &table::Limit, env: &super::Env) -> Result<Limit> {
@@ -290,7 +273,11 @@ impl<'t> Lowering<'t> {
             }
         }
         let term = self.term(&limit.value, env, Expected::Anything)?;
-        Ok(Limit { span: limit.span, at, values: self.components(term, limit.value.span)? })
+        Ok(Limit {
+            span: limit.span,
+            at,
+            values: self.components(term, limit.value.span)?.into_iter().map(|part| part.value).collect(),
+        })
     }
 
     /// Checks the names of functions, helpers and their parameters.

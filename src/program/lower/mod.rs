@@ -9,6 +9,7 @@ mod groups;
 mod images;
 mod levels;
 mod library;
+mod output;
 mod rows;
 mod scope;
 mod terms;
@@ -17,11 +18,12 @@ mod tests;
 mod written;
 
 use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::domain::{Input, LevelKind, Levels, StateSpace};
 use super::pool::{InputSet, Pool};
-use super::{Assumption, InputId, Output, Program};
+use super::{Assumption, InputId, Program};
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::{self, Table, names};
 use scope::Env;
@@ -66,8 +68,7 @@ struct Lowering<'t> {
     input_index: HashMap<&'t str, InputId>,
     set_index: HashMap<&'t str, SetId>,
     case_index: HashMap<u32, usize>,
-    output: Output,
-    output_set: SetId,
+    output: Rc<table::Output<SetId>>,
 }
 
 /// Checks a table.
@@ -117,8 +118,7 @@ impl<'t> Lowering<'t> {
             input_index: HashMap::new(),
             set_index: HashMap::new(),
             case_index: HashMap::new(),
-            output: Output::Number,
-            output_set: SetId::BOOL,
+            output: Rc::new(table::Output::Number(None)),
         };
         lowering.open_scope(table);
         lowering
@@ -192,13 +192,13 @@ impl<'t> Lowering<'t> {
             origin: table.origin.clone(),
             hit_policy: table.hit_policy.value,
             hit_policy_span: table.hit_policy.span,
+            output: self.resolved(&self.output),
             inputs: self.inputs,
             fetched,
             states,
             pool: self.pool,
             rows,
             default: default?,
-            output: self.output,
             assumptions,
             draw,
             symmetries,

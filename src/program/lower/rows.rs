@@ -12,9 +12,8 @@ use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::domain::Domain;
-use crate::program::operators::TernaryOp;
 use crate::program::pool::{CondId, ExprId};
-use crate::program::{InputId, LevelTerm, Line, Output, Row};
+use crate::program::{InputId, LevelTerm, Line, Row};
 use crate::table::expr::Expr;
 use crate::table::{self, Case, CaseBody};
 use crate::text::closest::nearest;
@@ -228,63 +227,5 @@ impl<'t> Lowering<'t> {
     pub(super) fn default_term(&mut self, env: &Env) -> Result<Term> {
         let expected = self.expected_output();
         self.term(&self.table.default, env, expected)
-    }
-
-    pub(super) fn expected_output(&self) -> Expected {
-        match &self.output {
-            Output::Number | Output::Vector(_) | Output::Record(_) => Expected::Anything,
-            Output::Enumeration(_) => Expected::Level(self.output_set),
-            Output::List { max, .. } => Expected::List(self.output_set, *max),
-        }
-    }
-
-    /// Ties a value to the output: the components, not clamped yet.
-    pub(super) fn components(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
-        let wrong = |found: &str, wanted: &str| {
-            Err(Diagnostic::error(codes::TYPE, format!("the output is {wanted}, but this is {found}"))
-                .at(span, format!("this is {found}"))
-                .help("what the table returns is declared under `output`"))
-        };
-        Ok(match (&self.output, term) {
-            (Output::Number, Term::Number(number)) => vec![number],
-            (Output::Vector(size), Term::Vector(parts)) if parts.len() == *size => parts,
-            (Output::Enumeration(_), Term::Level(set, term)) if set == self.output_set => {
-                vec![self.level_number(set, &term, |_, level| f64::from(level))]
-            }
-            (Output::List { .. }, Term::List(parts)) => parts,
-            (Output::Record(names), Term::Record(parts)) if parts.iter().map(|(name, _)| name).eq(names) => {
-                parts.into_iter().map(|(_, part)| part).collect()
-            }
-            (Output::Record(names), _) => {
-                return wrong("something else", &format!("a record of {}", names.join(", ")));
-            }
-            (Output::Number, Term::Bool(_)) => return wrong("a condition", "a number"),
-            (Output::Number, _) => return wrong("not a number", "a number"),
-            (Output::Vector(size), _) => return wrong("something else", &format!("a vector of {size}")),
-            (Output::Enumeration(levels), _) => {
-                return wrong("something else", &format!("one of the levels {}", levels.names.join(", ")));
-            }
-            (Output::List { .. }, _) => return wrong("not a list", "a list, written [a, b]"),
-        })
-    }
-
-    /// The bounds that every component of a result is clamped to.
-    pub(super) fn clamp(&self) -> Option<(f64, f64)> {
-        match &self.table.output.value {
-            table::Output::Number(clamp) | table::Output::Vector(_, clamp) => *clamp,
-            table::Output::Enumeration(_) | table::Output::List { .. } => None,
-        }
-    }
-
-    /// Ties a value to the output: the components, clamped.
-    pub(super) fn result(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
-        let parts = self.components(term, span)?;
-        Ok(match self.clamp() {
-            None => parts,
-            Some((lo, hi)) => {
-                let (lo, hi) = (self.pool.number(lo), self.pool.number(hi));
-                parts.into_iter().map(|part| self.pool.ternary(TernaryOp::Clamp, part, lo, hi)).collect()
-            }
-        })
     }
 }

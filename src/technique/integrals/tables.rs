@@ -45,13 +45,10 @@ impl Tables {
     pub fn new() -> Result<Self, Failure> {
         let (double, gaussian) = (&DOUBLE_PRODUCT, &SPHERICAL_GAUSSIAN);
         let moments = double.function("moments")?;
-        let names: Vec<String> = match &moments.output {
-            crate::program::Output::Record(names) => names.iter().map(|name| name.to_ascii_lowercase()).collect(),
-            _ => Vec::new(),
-        };
+        let numbers = moments.output.components();
         let mut order = [0; 9];
         for (place, wanted) in order.iter_mut().zip(MOMENTS) {
-            let Some(index) = names.iter().position(|name| name == wanted) else {
+            let Some(index) = numbers.iter().position(|number| number.name.eq_ignore_ascii_case(wanted)) else {
                 let message = format!("`moments` returns no `{wanted}`");
                 return Err(Failure::bare(double.name, Diagnostic::error(codes::NOT_APPLICABLE, message)));
             };

@@ -27,7 +27,7 @@ use crate::diag::{Diagnostic, Span, codes};
 use crate::eval::{Precise, Unknown};
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::{BinaryOp, CondId, ExprId, InputId, Node, Program, Value};
+use crate::program::{BinaryOp, CondId, ExprId, InputId, Node, Program, Scalar, Value};
 use crate::show::{Precision, sentence};
 pub use points::inside as domain_points;
 use trace::Trace;
@@ -208,7 +208,7 @@ pub(in crate::analyse) const ANALYSIS: Analysis =
 
 /// Everything that is wrong with the numbers of a program.
 fn findings(program: &Program) -> Vec<Diagnostic> {
-    if program.output.is_integer() {
+    if !program.output.components().iter().any(|component| component.scalar == Scalar::Float) {
         return Vec::new();
     }
     let singularities = singularities(program);
