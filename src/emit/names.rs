@@ -13,6 +13,8 @@ pub(super) struct Names {
     pub(super) temporary: String,
     /// Names that a local must not have: they mean something else where locals stand.
     hidden: BTreeSet<String>,
+    /// The beginning of the names of the module, in lower case.
+    module: String,
     /// The number that stands for no case.
     pub(super) default: u32,
     /// The number that stands for no result: some tests were gone through, others follow.
@@ -76,12 +78,13 @@ impl Names {
         let used: BTreeSet<u32> = program.rows.iter().map(|row| row.id).collect();
         let mut unused = (0..=u32::MAX).rev().filter(|id| !used.contains(id));
         let (default, miss) = (unused.next().unwrap_or(u32::MAX), unused.next().unwrap_or(0));
-        Self { file, temporary, hidden, default, miss, sets }
+        let module = format!("{}_", prefix.lower.to_ascii_lowercase());
+        Self { file, temporary, hidden, module, default, miss, sets }
     }
 
     /// Returns whether a local of this name would hide something.
     pub(super) fn hides(&self, name: &str) -> bool {
-        self.hidden.contains(name)
+        self.hidden.contains(name) || name.to_ascii_lowercase().starts_with(&self.module)
     }
 
     /// The number of the case where a part of the tests found none.

@@ -3,6 +3,7 @@
 
 mod architecture;
 mod batch;
+mod emitted_names;
 mod emitted_rust;
 mod generated;
 mod glslang;

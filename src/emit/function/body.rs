@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::outline::{FAN_OUT, MAX_LEVELS, Outline};
+use super::scope::Scope;
 use crate::emit::language::{Dialect, Prefix, Type, bare, value};
 use crate::emit::names::{Names, input_type};
 use crate::emit::text::Text;
@@ -18,6 +19,8 @@ pub(in crate::emit) struct Body<'a, 'p> {
     pub(in crate::emit) outline: Outline,
     /// The function that is being printed.
     pub(in crate::emit) text: Text,
+    /// The names in sight where its text ends.
+    pub(super) scope: Scope,
     /// Functions that are complete, in the order in which languages want them.
     pub(in crate::emit) functions: String,
     /// The functions of shared steps.
@@ -46,6 +49,7 @@ impl<'a, 'p> Body<'a, 'p> {
             names,
             outline: Outline::new(plan),
             text: Text::default(),
+            scope: Scope::default(),
             functions: String::new(),
             shared: HashMap::new(),
             count: 0,
@@ -118,13 +122,14 @@ impl<'a, 'p> Body<'a, 'p> {
         let mut parameters = self.parameters(needs, fetches);
         parameters.splice(0..0, selector.map(|selector| (selector.to_owned(), Type::UINT)));
         let (outer, renamed) = (std::mem::take(&mut self.text), std::mem::take(&mut self.renamed));
+        let scope = std::mem::take(&mut self.scope);
         self.text.comment(comment);
         self.open(&name, &parameters, needs);
         fill(self);
         self.text.close();
         self.text.gap();
         self.functions += &std::mem::replace(&mut self.text, outer).finish();
-        self.renamed = renamed;
+        (self.renamed, self.scope) = (renamed, scope);
         let named = |name: &'_ String| self.renamed.get(name).unwrap_or(name).clone();
         let arguments: Vec<String> = parameters
             .iter()
@@ -204,25 +209,32 @@ impl<'a, 'p> Body<'a, 'p> {
         if self.plan.pool.truth(condition) == Some(false) {
             return;
         }
-        let mut locals = self.computed_constants(&[], &[condition]);
-        self.operands(condition, &mut locals);
-        let condition = self.condition(condition, &locals);
-        self.text.open(self.dialect.if_open(bare(&condition)));
-        self.text.line(format!("{ident} = {};", self.dialect.fetch(self.prefix, &ident)));
+        let open = self.test(condition);
+        self.block(open, |me| me.text.line(format!("{ident} = {};", me.dialect.fetch(me.prefix, &ident))));
+    }
+
+    /// The first line of a conditional, after the locals that its condition needs.
+    fn test(&mut self, condition: CondId) -> String {
+        self.computed_constants(&[], &[condition]);
+        self.operands(condition);
+        self.dialect.if_open(bare(&self.condition(condition)))
+    }
+
+    /// A block: what it declares ends with it.
+    pub(in crate::emit) fn block(&mut self, open: impl AsRef<str>, fill: impl FnOnce(&mut Self)) {
+        let begins = self.scope.mark();
+        self.text.open(open);
+        fill(self);
         self.text.close();
+        self.scope.forget(begins);
     }
 
     /// Tests one after the other. Returns how many conditionals what follows is inside of.
     fn chain(&mut self, tests: &[(CondId, StepId)], level: usize) -> usize {
         if tests.len() <= FAN_OUT || level + tests.len() <= MAX_LEVELS {
             for (nested, (condition, then)) in tests.iter().enumerate() {
-                let mut locals = self.computed_constants(&[], &[*condition]);
-                self.operands(*condition, &mut locals);
-                let condition = self.condition(*condition, &locals);
-                let open = self.dialect.if_open(bare(&condition));
-                self.text.open(open);
-                self.step(*then, level + nested + 1);
-                self.text.close();
+                let open = self.test(*condition);
+                self.block(open, |me| me.step(*then, level + nested + 1));
             }
             return tests.len();
         }
@@ -247,9 +259,7 @@ impl<'a, 'p> Body<'a, 'p> {
             let local = self.dialect.local(&Type::Result, &name, &call, self.prefix);
             self.text.line(local);
             let open = self.dialect.if_open(&format!("{name}.case_id != {miss}"));
-            self.text.open(open);
-            self.text.line(format!("return {name};"));
-            self.text.close();
+            self.block(open, |me| me.text.line(format!("return {name};")));
         }
         count
     }
@@ -261,14 +271,13 @@ impl<'a, 'p> Body<'a, 'p> {
             // language sees that all paths return.
             let Some((last, others)) = arms.split_last() else { return };
             if !others.is_empty() {
-                self.text.open(self.dialect.switch_open(selector));
-                for (number, arm) in (first..).zip(others) {
-                    self.text.open(self.dialect.case_open(&[number as u32]));
-                    self.step(*arm, level + number - first + 1);
-                    self.text.close();
-                }
-                self.text.line(self.dialect.case_default());
-                self.text.close();
+                self.block(self.dialect.switch_open(selector), |me| {
+                    for (number, arm) in (first..).zip(others) {
+                        let open = me.dialect.case_open(&[number as u32]);
+                        me.block(open, |me| me.step(*arm, level + number - first + 1));
+                    }
+                    me.text.line(me.dialect.case_default());
+                });
             }
             return self.step(*last, level + others.len());
         }
@@ -289,9 +298,8 @@ impl<'a, 'p> Body<'a, 'p> {
             self.function("arms", Some(&name), about, &comment, |me| me.arms(&name, first, arms, level + 1))
         });
         let middle = self.dialect.uint((first + low.len()) as u32);
-        self.text.open(self.dialect.if_open(&format!("{name} < {middle}")));
-        self.text.line(format!("return {};", calls[0]));
-        self.text.close();
+        let open = self.dialect.if_open(&format!("{name} < {middle}"));
+        self.block(open, |me| me.text.line(format!("return {};", calls[0])));
         self.text.line(format!("return {};", calls[1]));
     }
 }

@@ -3,6 +3,7 @@
 pub(crate) mod body;
 pub(crate) mod lookup;
 pub(crate) mod outline;
+mod scope;
 pub(crate) mod special;
 pub(crate) mod terms;
 pub(crate) mod values;

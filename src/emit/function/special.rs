@@ -2,7 +2,6 @@
 
 use super::body::Body;
 use super::lookup::{key_words, piece, stride};
-use super::terms::Locals;
 use crate::emit::language::{Type, bare, value};
 use crate::emit::names::input_type;
 use crate::plan::{StepId, renamed};
@@ -23,14 +22,20 @@ impl Body<'_, '_> {
 
     /// A minimum of sums whose coefficients the lookup holds, or one of the ways of `rest`.
     pub(in crate::emit) fn coefficients(&mut self, rest: &[StepId], level: usize) {
+        let count = self.plan.coefficients.fits.len();
+        let entry = self.entry();
+        if rest.is_empty() {
+            return self.fitted(&entry);
+        }
+        let open = self.dialect.if_open(&format!("{entry} < {}", self.dialect.uint(count as u32)));
+        self.block(open, |me| me.fitted(&entry));
+        self.arms(&entry, count, rest, level + 1);
+    }
+
+    /// The sums of a set of coefficients.
+    fn fitted(&mut self, entry: &str) {
         let plan = self.plan;
         let coefficients = &plan.coefficients;
-        let count = coefficients.fits.len();
-        let entry = self.entry();
-        if !rest.is_empty() {
-            let open = self.dialect.if_open(&format!("{entry} < {}", self.dialect.uint(count as u32)));
-            self.text.open(open);
-        }
         let data = plan.program.output.data_type();
         let components = data.components().len();
         let (first, stride) = (key_words(plan), stride(coefficients, components));
@@ -75,10 +80,6 @@ impl Body<'_, '_> {
         let value = value(self.dialect, self.prefix, &data, values);
         let result = self.dialect.result(self.prefix, &value, &word(self, 0));
         self.text.line(format!("return {result};"));
-        if !rest.is_empty() {
-            self.text.close();
-            self.arms(&entry, count, rest, level + 1);
-        }
     }
 
     /// Turns the inputs, calls the function of the representatives, turns the result back.
@@ -103,7 +104,7 @@ impl Body<'_, '_> {
         for (flag, index) in flags.iter().zip(&plan.symmetries).rev() {
             if let Some(map) = program.symmetries[*index].result {
                 self.result.clone_from(&value);
-                let image = self.expr(map, &Locals::default());
+                let image = self.expr(map);
                 let back = self.dialect.select(flag, bare(&image), &value);
                 value = self.named(&Type::Data(program.output.data_type()), &back);
             }
@@ -122,7 +123,7 @@ impl Body<'_, '_> {
             let symmetry = &program.symmetries[*index];
             let mut images: Vec<(InputId, String)> = Vec::new();
             for (input, image) in symmetry.numbers.iter().filter(|(input, _)| needed.contains(*input)) {
-                images.push((*input, self.expr(*image, &Locals::default())));
+                images.push((*input, self.expr(*image)));
             }
             let fetched = symmetry.levels.iter().filter(|(input, _)| program.fetched.contains(*input));
             for (input, image) in fetched.filter(|(input, _)| needed.contains(*input)) {

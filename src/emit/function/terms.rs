@@ -1,23 +1,11 @@
 //! Leaves, conditions and expressions → statements of some language.
 
-use std::collections::hash_map::Entry;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::BTreeSet;
 
 use super::body::Body;
 use crate::emit::language::{Type, bare, value};
 use crate::plan::Leaf;
 use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, Scalar};
-
-/// The names in scope at a place of the code.
-#[derive(Default, Clone)]
-pub(in crate::emit) struct Locals {
-    /// Expressions that have a name, or are a part of something that has.
-    pub(in crate::emit) names: HashMap<ExprId, String>,
-    /// Conditions whose outcome is known here.
-    pub(in crate::emit) decided: HashMap<CondId, bool>,
-    /// Arguments whose sine and cosine have a name, as a pair.
-    pub(in crate::emit) pairs: HashMap<ExprId, String>,
-}
 
 impl Body<'_, '_> {
     pub(in crate::emit) fn leaf(&mut self, leaf: &Leaf) {
@@ -43,13 +31,13 @@ impl Body<'_, '_> {
         let data = program.output.data_type();
         let components: Vec<(Scalar, ExprId)> =
             data.components().iter().map(|component| component.scalar).zip(leaf.values.iter().copied()).collect();
-        let mut locals = self.computed_constants(&leaf.values, &[]);
+        self.computed_constants(&leaf.values, &[]);
         let numbers = components.iter().filter(|(scalar, _)| *scalar == Scalar::Float);
-        self.declare(&numbers.map(|(_, value)| *value).collect::<Vec<_>>(), &mut locals);
+        self.declare(&numbers.map(|(_, value)| *value).collect::<Vec<_>>());
         let components = components.iter().map(|(scalar, value)| match scalar {
-            Scalar::Float => bare(&self.expr(*value, &locals)).to_owned(),
-            Scalar::Uint => bare(&self.integer(*value, &locals)).to_owned(),
-            Scalar::Bool => format!("{} != {}", self.integer(*value, &locals), self.dialect.uint(0)),
+            Scalar::Float => bare(&self.expr(*value)).to_owned(),
+            Scalar::Uint => bare(&self.integer(*value)).to_owned(),
+            Scalar::Bool => format!("{} != {}", self.integer(*value), self.dialect.uint(0)),
         });
         let value = value(self.dialect, self.prefix, &data, components);
         let result = self.dialect.result(self.prefix, &value, &case);
@@ -64,7 +52,7 @@ impl Body<'_, '_> {
     /// Declares locals for the constants of operations that must not be
     /// evaluated by the shader's compiler: it would refuse `1.0 / 0.0`, or
     /// compute it more exactly than the table does.
-    pub(in crate::emit) fn computed_constants(&mut self, exprs: &[ExprId], conditions: &[CondId]) -> Locals {
+    pub(in crate::emit) fn computed_constants(&mut self, exprs: &[ExprId], conditions: &[CondId]) {
         let mut found = Vec::new();
         let (mut seen_exprs, mut seen_conds) = (BTreeSet::new(), BTreeSet::new());
         let (mut exprs, mut conditions) = (exprs.to_vec(), conditions.to_vec());
@@ -94,23 +82,21 @@ impl Body<'_, '_> {
                 break;
             }
         }
-        let mut locals = Locals::default();
         for constant in found {
-            if let Entry::Vacant(entry) = locals.names.entry(constant) {
+            if self.scope.value(constant).is_none() {
                 let name = self.temporary();
-                let value = self.expr(constant, &Locals::default());
+                let value = self.expr(constant);
                 self.text.line(self.dialect.local(&Type::FLOAT, &name, bare(&value), self.prefix));
-                entry.insert(name);
+                self.scope.name(constant, name);
             }
         }
-        locals
     }
 
-    pub(in crate::emit) fn expr(&self, expr: ExprId, locals: &Locals) -> String {
-        if let Some(name) = locals.names.get(&expr) {
-            return name.clone();
+    pub(in crate::emit) fn expr(&self, expr: ExprId) -> String {
+        if let Some(name) = self.scope.value(expr) {
+            return name.to_owned();
         }
-        let of = |e: ExprId| self.expr(e, locals);
+        let of = |e: ExprId| self.expr(e);
         match self.plan.pool.node(expr) {
             Node::Const(number) => self.dialect.number(number.get()),
             Node::Input(input) => {
@@ -123,21 +109,21 @@ impl Body<'_, '_> {
             Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
             Node::Ternary(op, a, b, c) => self.dialect.ternary(self.prefix, op, &of(a), &of(b), &of(c)),
             Node::Select(c, a, b) => {
-                if let Some(outcome) = locals.decided.get(&c) {
-                    return of(if *outcome { a } else { b });
+                if let Some(outcome) = self.scope.outcome(c) {
+                    return of(if outcome { a } else { b });
                 }
                 let (a, b) = (of(a), of(b));
-                self.dialect.select(bare(&self.condition(c, locals)), bare(&a), bare(&b))
+                self.dialect.select(bare(&self.condition(c)), bare(&a), bare(&b))
             }
         }
     }
 
     /// An expression of whole numbers: constants and selections.
-    fn integer(&self, expr: ExprId, locals: &Locals) -> String {
+    fn integer(&self, expr: ExprId) -> String {
         match self.plan.pool.node(expr) {
             Node::Select(c, a, b) => {
-                let condition = self.condition(c, locals);
-                self.dialect.select(bare(&condition), &self.integer(a, locals), &self.integer(b, locals))
+                let condition = self.condition(c);
+                self.dialect.select(bare(&condition), &self.integer(a), &self.integer(b))
             }
             Node::Const(number) => self.dialect.uint(number.get() as u32),
             Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
@@ -146,9 +132,9 @@ impl Body<'_, '_> {
         }
     }
 
-    pub(in crate::emit) fn condition(&self, condition: CondId, locals: &Locals) -> String {
+    pub(in crate::emit) fn condition(&self, condition: CondId) -> String {
         let joined = |parts: &[CondId], symbol: &str| {
-            let parts: Vec<String> = parts.iter().map(|part| self.condition(*part, locals)).collect();
+            let parts: Vec<String> = parts.iter().map(|part| self.condition(*part)).collect();
             format!("({})", parts.join(symbol))
         };
         match self.plan.pool.cond(condition) {
@@ -160,7 +146,7 @@ impl Body<'_, '_> {
                     Comparison::LessEqual => "<=",
                     Comparison::Equal => "==",
                 };
-                format!("({} {symbol} {})", self.expr(*a, locals), self.expr(*b, locals))
+                format!("({} {symbol} {})", self.expr(*a), self.expr(*b))
             }
             Cond::Not(a) => match self.plan.pool.cond(*a) {
                 Cond::Level(input, levels) => {
@@ -168,13 +154,13 @@ impl Body<'_, '_> {
                     self.level(*input, LevelSet(LevelSet::all(count).0 & !levels.0))
                 }
                 Cond::Const(_) | Cond::Compare(..) | Cond::Not(_) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => {
-                    format!("!({})", bare(&self.condition(*a, locals)))
+                    format!("!({})", bare(&self.condition(*a)))
                 }
             },
             Cond::And(parts) => joined(parts, " && "),
             Cond::Or(parts) => joined(parts, " || "),
             Cond::If(c, a, b) => {
-                let [c, a, b] = [c, a, b].map(|part| self.condition(*part, locals));
+                let [c, a, b] = [c, a, b].map(|part| self.condition(*part));
                 self.dialect.select(bare(&c), bare(&a), bare(&b))
             }
         }

@@ -9,7 +9,7 @@
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::body::Body;
-use super::terms::Locals;
+use super::scope::Scope;
 use crate::emit::language::{Type, bare, call};
 use crate::program::{CondId, ExprId, Node, Pool, UnaryOp};
 
@@ -32,156 +32,147 @@ struct Needs {
 impl Body<'_, '_> {
     /// Declares locals so that the values can be printed: for what the table
     /// names, what occurs more than once, and what nests too deeply.
-    pub(in crate::emit) fn declare(&mut self, values: &[ExprId], locals: &mut Locals) {
+    pub(in crate::emit) fn declare(&mut self, values: &[ExprId]) {
         let mut needs = Needs::default();
         for value in values {
-            self.visit(*value, locals, &mut needs);
+            self.visit(*value, &mut needs);
         }
         let mut shared: HashSet<ExprId> =
             needs.uses.iter().filter(|(_, count)| **count > 1).map(|(expr, _)| *expr).collect();
-        let choices: Vec<ExprId> = needs.order.iter().copied().filter(|e| self.is_choice(*e, locals)).collect();
+        let choices: Vec<ExprId> = needs.order.iter().copied().filter(|e| self.is_choice(*e)).collect();
         if !choices.is_empty() {
-            self.share_with_sides(&choices, &mut needs, &mut shared, locals);
+            self.share_with_sides(&choices, &mut needs, &mut shared);
         }
         let mut depths: HashMap<ExprId, usize> = HashMap::new();
         // What waits for a conditional statement comes after it; all else, before.
         let mut waits: HashSet<ExprId> = HashSet::new();
         for expr in &needs.order {
-            let operands = self.operands_of(*expr, locals);
-            if self.is_choice(*expr, locals) || operands.iter().any(|operand| waits.contains(operand)) {
+            let operands = self.operands_of(*expr);
+            if self.is_choice(*expr) || operands.iter().any(|operand| waits.contains(operand)) {
                 waits.insert(*expr);
             }
         }
         let (late, early): (Vec<ExprId>, Vec<ExprId>) = needs.order.iter().partition(|expr| waits.contains(expr));
         for expr in early.into_iter().chain(late) {
-            if locals.names.contains_key(&expr) {
+            if self.scope.value(expr).is_some() {
                 continue;
             }
-            if self.is_choice(expr, locals) {
-                self.choose(expr, &choices, locals);
+            if self.is_choice(expr) {
+                self.choose(expr, &choices);
                 depths.insert(expr, 0);
                 continue;
             }
-            self.local(expr, values.contains(&expr), shared.contains(&expr), &mut depths, locals);
+            self.local(expr, values.contains(&expr), shared.contains(&expr), &mut depths);
         }
     }
 
     /// Declares locals so that a condition can be printed, if its operands are large.
-    pub(in crate::emit) fn operands(&mut self, condition: CondId, locals: &mut Locals) {
+    pub(in crate::emit) fn operands(&mut self, condition: CondId) {
         if self.plan.pool.cond_facts(condition).size > MAX_PLAIN {
-            self.declare(&compared(&self.plan.pool, condition), locals);
+            self.declare(&compared(&self.plan.pool, condition));
         }
     }
 
     /// One expression that is needed in any case.
-    fn local(
-        &mut self,
-        expr: ExprId,
-        is_result: bool,
-        shared: bool,
-        depths: &mut HashMap<ExprId, usize>,
-        locals: &mut Locals,
-    ) {
+    fn local(&mut self, expr: ExprId, is_result: bool, shared: bool, depths: &mut HashMap<ExprId, usize>) {
         let pool = &self.plan.pool;
         let node = pool.node(expr);
         if let Node::Unary(op @ (UnaryOp::PortableSin | UnaryOp::PortableCos), argument) = node {
-            let pair = match locals.pairs.get(&argument) {
-                Some(pair) => pair.clone(),
+            let pair = match self.scope.pair(argument) {
+                Some(pair) => pair.to_owned(),
                 None => {
                     let pair = self.temporary();
                     let function = self.dialect.global(self.prefix, "sincos");
-                    let value = call(&function, &[&self.expr(argument, locals)]);
+                    let value = call(&function, &[&self.expr(argument)]);
                     self.text.line(self.dialect.local(&Type::PAIR, &pair, &value, self.prefix));
-                    locals.pairs.insert(argument, pair.clone());
+                    self.scope.name_pair(argument, pair.clone());
                     pair
                 }
             };
-            locals.names.insert(expr, self.dialect.of_pair(&pair, op == UnaryOp::PortableCos));
+            self.scope.name(expr, self.dialect.of_pair(&pair, op == UnaryOp::PortableCos));
             depths.insert(expr, 0);
             return;
         }
         let depth = 1 + node.children().filter_map(|c| depths.get(&c)).max().copied().unwrap_or(0);
         depths.insert(expr, depth);
-        let label = pool.label(expr).map(|label| label.replace('.', "_"));
+        let label = pool.label(expr);
         let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Result);
         if trivial || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
             return;
         }
-        let name = match label {
-            Some(label) if !self.is_taken(&label, locals) => label,
-            _ => self.temporary(),
-        };
-        let value = self.expr(expr, locals);
+        let name = self.name_for(expr);
+        let value = self.expr(expr);
         self.text.line(self.dialect.local(&Type::FLOAT, &name, bare(&value), self.prefix));
-        locals.names.insert(expr, name);
+        self.scope.name(expr, name);
         depths.insert(expr, 0);
     }
 
-    fn is_taken(&self, name: &str, locals: &Locals) -> bool {
-        self.names.hides(name) || locals.names.values().any(|taken| taken == name)
+    /// A name that nothing in sight has: that of the table, if it can be had.
+    fn name_for(&mut self, expr: ExprId) -> String {
+        let label = self.plan.pool.label(expr).map(|label| label.replace('.', "_"));
+        match label.filter(|label| !self.names.hides(label) && self.scope.take(label)) {
+            Some(label) => label,
+            None => self.temporary(),
+        }
     }
 
     /// A selection as a conditional statement, together with the others by its condition.
-    fn choose(&mut self, expr: ExprId, choices: &[ExprId], locals: &mut Locals) {
+    fn choose(&mut self, expr: ExprId, choices: &[ExprId]) {
         let Node::Select(condition, ..) = self.plan.pool.node(expr) else { return };
         let mut group: Vec<(ExprId, String, ExprId, ExprId)> = Vec::new();
         for other in choices {
             if let Node::Select(c, yes, no) = self.plan.pool.node(*other)
                 && c == condition
-                && !locals.names.contains_key(other)
+                && self.scope.value(*other).is_none()
             {
-                let label = self.plan.pool.label(*other).map(|label| label.replace('.', "_"));
-                let name = match label {
-                    Some(label) if !self.is_taken(&label, locals) && !group.iter().any(|(_, n, ..)| *n == label) => {
-                        label
-                    }
-                    _ => self.temporary(),
-                };
-                group.push((*other, name, yes, no));
+                group.push((*other, self.name_for(*other), yes, no));
             }
         }
         for (_, name, ..) in &group {
             self.text.line(self.dialect.number_later(name));
         }
-        let test = self.condition(condition, locals);
+        let test = self.condition(condition);
         self.text.open(self.dialect.if_open(bare(&test)));
         for outcome in [true, false] {
-            let mut inside = locals.clone();
-            inside.decided.insert(condition, outcome);
+            let side_begins = self.scope.mark();
+            self.scope.decide(condition, outcome);
             let side = |yes: ExprId, no: ExprId| if outcome { yes } else { no };
             let values: Vec<ExprId> = group.iter().map(|(_, _, yes, no)| side(*yes, *no)).collect();
-            self.declare(&values, &mut inside);
+            self.declare(&values);
             for ((_, name, ..), value) in group.iter().zip(values) {
-                let value = self.expr(value, &inside);
+                let value = self.expr(value);
                 self.text.line(format!("{name} = {};", bare(&value)));
             }
+            self.scope.forget(side_begins);
             match outcome {
                 true => self.text.otherwise(),
                 false => self.text.close(),
             }
         }
-        locals.names.extend(group.into_iter().map(|(expr, name, ..)| (expr, name)));
+        for (expr, name, ..) in group {
+            self.scope.name(expr, name);
+        }
     }
 
     /// Collects what an expression needs in any case; a choice needs what its condition compares.
-    fn visit(&self, expr: ExprId, locals: &Locals, needs: &mut Needs) {
+    fn visit(&self, expr: ExprId, needs: &mut Needs) {
         let count = needs.uses.entry(expr).or_insert(0);
         *count += 1;
-        if *count > 1 || locals.names.contains_key(&expr) {
+        if *count > 1 || self.scope.value(expr).is_some() {
             return;
         }
-        for operand in self.operands_of(expr, locals) {
-            self.visit(operand, locals, needs);
+        for operand in self.operands_of(expr) {
+            self.visit(operand, needs);
         }
         needs.order.push(expr);
     }
 
-    fn operands_of(&self, expr: ExprId, locals: &Locals) -> Vec<ExprId> {
+    fn operands_of(&self, expr: ExprId) -> Vec<ExprId> {
         let pool = &self.plan.pool;
         match pool.node(expr) {
-            Node::Select(c, a, b) => match locals.decided.get(&c) {
-                Some(outcome) => vec![if *outcome { a } else { b }],
-                None if self.is_choice(expr, locals) => compared(pool, c),
+            Node::Select(c, a, b) => match self.scope.outcome(c) {
+                Some(outcome) => vec![if outcome { a } else { b }],
+                None if self.is_choice(expr) => compared(pool, c),
                 None => {
                     let large = pool.cond_facts(c).size > MAX_PLAIN;
                     [a, b].into_iter().chain(if large { compared(pool, c) } else { Vec::new() }).collect()
@@ -197,10 +188,10 @@ impl Body<'_, '_> {
     }
 
     /// Returns whether an expression is a selection that becomes a conditional statement.
-    fn is_choice(&self, expr: ExprId, locals: &Locals) -> bool {
+    fn is_choice(&self, expr: ExprId) -> bool {
         let pool = &self.plan.pool;
         let Node::Select(c, a, b) = pool.node(expr) else { return false };
-        !locals.decided.contains_key(&c) && [a, b].iter().any(|side| !self.is_plain(*side))
+        self.scope.outcome(c).is_none() && [a, b].iter().any(|side| !self.is_plain(*side))
     }
 
     /// Returns whether an expression is small and cannot fail.
@@ -218,7 +209,7 @@ impl Body<'_, '_> {
 
     /// Marks what the sides of choices share with the block, and adds to the
     /// block what the sides of several choices share, if it cannot fail.
-    fn share_with_sides(&self, choices: &[ExprId], needs: &mut Needs, shared: &mut HashSet<ExprId>, locals: &Locals) {
+    fn share_with_sides(&self, choices: &[ExprId], needs: &mut Needs, shared: &mut HashSet<ExprId>) {
         let pool = &self.plan.pool;
         // By condition: statements are.
         let mut reached: HashMap<CondId, BTreeSet<ExprId>> = HashMap::new();
@@ -226,7 +217,7 @@ impl Body<'_, '_> {
             if let Node::Select(condition, yes, no) = pool.node(*choice) {
                 let seen = reached.entry(condition).or_default();
                 for side in [yes, no] {
-                    reach(pool, side, locals, seen);
+                    reach(pool, side, &self.scope, seen);
                 }
             }
         }
@@ -247,21 +238,21 @@ impl Body<'_, '_> {
         // Operands have lower numbers than what is made of them.
         several.sort_unstable();
         for expr in several {
-            self.visit(expr, locals, needs);
+            self.visit(expr, needs);
             shared.insert(expr);
         }
     }
 }
 
 /// Everything below an expression.
-fn reach(pool: &Pool, expr: ExprId, locals: &Locals, seen: &mut BTreeSet<ExprId>) {
-    if locals.names.contains_key(&expr) || !seen.insert(expr) {
+fn reach(pool: &Pool, expr: ExprId, scope: &Scope, seen: &mut BTreeSet<ExprId>) {
+    if scope.value(expr).is_some() || !seen.insert(expr) {
         return;
     }
     let node = pool.node(expr);
-    node.children().for_each(|operand| reach(pool, operand, locals, seen));
+    node.children().for_each(|operand| reach(pool, operand, scope, seen));
     if let Some(condition) = node.condition() {
-        compared(pool, condition).into_iter().for_each(|operand| reach(pool, operand, locals, seen));
+        compared(pool, condition).into_iter().for_each(|operand| reach(pool, operand, scope, seen));
     }
 }
 
