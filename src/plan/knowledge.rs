@@ -120,18 +120,9 @@ impl Knowledge {
         }
         let result = match pool.node(expr) {
             Node::Const(_) | Node::Input(_) | Node::Result => expr,
-            Node::Unary(op, a) => {
-                let a = self.expr_memo(pool, a, memo);
-                pool.rebuild(Node::Unary(op, a))
-            }
-            Node::Binary(op, a, b) => {
-                let (a, b) = (self.expr_memo(pool, a, memo), self.expr_memo(pool, b, memo));
-                pool.rebuild(Node::Binary(op, a, b))
-            }
-            Node::Ternary(op, a, b, c) => {
-                let (a, b, c) =
-                    (self.expr_memo(pool, a, memo), self.expr_memo(pool, b, memo), self.expr_memo(pool, c, memo));
-                pool.rebuild(Node::Ternary(op, a, b, c))
+            node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+                let node = node.map(|part| self.expr_memo(pool, part, memo));
+                pool.rebuild(node)
             }
             Node::Select(c, a, b) => {
                 let c = self.cond(pool, c);

@@ -348,14 +348,17 @@ impl Pool {
 
     /// An operation whose operands became known later: folded if [`Pool::folds`] says so, else left as it is.
     pub fn rebuild(&mut self, node: Node) -> ExprId {
-        if !self.folds(node) {
-            return self.intern(node);
-        }
+        if self.folds(node) { self.fold(node) } else { self.intern(node) }
+    }
+
+    /// A node made of what is in the pool: folded if its operands are constants, a selection made if it is decided.
+    pub fn fold(&mut self, node: Node) -> ExprId {
         match node {
             Node::Unary(op, a) => self.unary(op, a),
             Node::Binary(op, a, b) => self.binary(op, a, b),
             Node::Ternary(op, a, b, c) => self.ternary(op, a, b, c),
-            Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => self.intern(node),
+            Node::Select(condition, a, b) => self.select(condition, a, b),
+            Node::Const(_) | Node::Input(_) | Node::Result => self.intern(node),
         }
     }
 

@@ -334,17 +334,9 @@ impl<'p> Machine<'p> {
                     }
                 }
             }
-            Node::Unary(op, a) => {
-                let a = self.resolve_memo(a, view, memo);
-                self.pool.unary(op, a)
-            }
-            Node::Binary(op, a, b) => {
-                let (a, b) = (self.resolve_memo(a, view, memo), self.resolve_memo(b, view, memo));
-                self.pool.binary(op, a, b)
-            }
-            Node::Ternary(op, a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|part| self.resolve_memo(part, view, memo));
-                self.pool.ternary(op, a, b, c)
+            node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+                let node = node.map(|part| self.resolve_memo(part, view, memo));
+                self.pool.fold(node)
             }
             Node::Select(c, a, b) => {
                 let chosen = if self.holds(c, view) { a } else { b };

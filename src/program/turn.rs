@@ -162,17 +162,9 @@ impl Turn {
                 let known = self.symmetry.numbers.iter().find(|(known, _)| *known == input);
                 known.map_or(expr, |(_, image)| *image)
             }
-            Node::Unary(op, a) => {
-                let a = self.number(pool, a);
-                pool.unary(op, a)
-            }
-            Node::Binary(op, a, b) => {
-                let (a, b) = (self.number(pool, a), self.number(pool, b));
-                pool.binary(op, a, b)
-            }
-            Node::Ternary(op, a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|part| self.number(pool, part));
-                pool.ternary(op, a, b, c)
+            node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+                let node = node.map(|part| self.number(pool, part));
+                pool.fold(node)
             }
         }
     }

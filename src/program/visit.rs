@@ -1,7 +1,8 @@
 //! The parts of expressions and conditions, for walks that only pass through them.
 //!
-//! What gives a term a meaning matches its variants; what looks for something
-//! inside of a term asks for its parts, and needs no change when a variant is added.
+//! Code that gives a term a meaning matches its variants; code that looks for something
+//! inside of a term asks for its parts, and code that replaces something inside of it maps
+//! them. Neither needs a change when a variant is added.
 
 use super::{Cond, CondId, ExprId, Node};
 
@@ -15,6 +16,18 @@ impl Node {
             Node::Ternary(_, a, b, c) => [Some(a), Some(b), Some(c)],
         };
         parts.into_iter().flatten()
+    }
+
+    /// The same node with its numbers mapped, from left to right. The condition of a selection stays.
+    #[must_use]
+    pub fn map(self, mut part: impl FnMut(ExprId) -> ExprId) -> Self {
+        match self {
+            Node::Const(_) | Node::Input(_) | Node::Result => self,
+            Node::Unary(op, a) => Node::Unary(op, part(a)),
+            Node::Binary(op, a, b) => Node::Binary(op, part(a), part(b)),
+            Node::Ternary(op, a, b, c) => Node::Ternary(op, part(a), part(b), part(c)),
+            Node::Select(condition, a, b) => Node::Select(condition, part(a), part(b)),
+        }
     }
 
     /// The condition of a selection.

@@ -405,17 +405,9 @@ impl<'p> Prover<'_, 'p> {
         }
         let result = match self.pool.node(expr) {
             Node::Const(_) | Node::Result | Node::Input(_) => expr,
-            Node::Unary(op, a) => {
-                let a = self.decided_memo(a, memo);
-                self.pool.rebuild(Node::Unary(op, a))
-            }
-            Node::Binary(op, a, b) => {
-                let (a, b) = (self.decided_memo(a, memo), self.decided_memo(b, memo));
-                self.pool.rebuild(Node::Binary(op, a, b))
-            }
-            Node::Ternary(op, a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|part| self.decided_memo(part, memo));
-                self.pool.rebuild(Node::Ternary(op, a, b, c))
+            node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+                let node = node.map(|part| self.decided_memo(part, memo));
+                self.pool.rebuild(node)
             }
             Node::Select(c, a, b) => match self.decides(c) {
                 Some(true) => self.decided_memo(a, memo),
@@ -474,18 +466,9 @@ impl<'p> Prover<'_, 'p> {
                 self.pool.number(least)
             }
             Node::Const(_) | Node::Result | Node::Input(_) => expr,
-            Node::Unary(op, a) => {
-                let a = self.resolve_memo(a, fetched, memo);
-                self.pool.rebuild(Node::Unary(op, a))
-            }
-            Node::Binary(op, a, b) => {
-                let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
-                self.pool.rebuild(Node::Binary(op, a, b))
-            }
-            Node::Ternary(op, a, b, c) => {
-                let (a, b) = (self.resolve_memo(a, fetched, memo), self.resolve_memo(b, fetched, memo));
-                let c = self.resolve_memo(c, fetched, memo);
-                self.pool.rebuild(Node::Ternary(op, a, b, c))
+            node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+                let node = node.map(|part| self.resolve_memo(part, fetched, memo));
+                self.pool.rebuild(node)
             }
             Node::Select(c, a, b) => {
                 let chosen = if self.holds(c, fetched) { a } else { b };

@@ -470,17 +470,9 @@ impl<'p> Space<'p> {
         match self.pool.node(map) {
             Node::Result => value,
             Node::Const(_) | Node::Input(_) | Node::Select(..) => map,
-            Node::Unary(op, a) => {
-                let a = self.with_result(a, value);
-                self.pool.unary(op, a)
-            }
-            Node::Binary(op, a, b) => {
-                let [a, b] = [a, b].map(|part| self.with_result(part, value));
-                self.pool.binary(op, a, b)
-            }
-            Node::Ternary(op, a, b, c) => {
-                let [a, b, c] = [a, b, c].map(|part| self.with_result(part, value));
-                self.pool.ternary(op, a, b, c)
+            node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+                let node = node.map(|part| self.with_result(part, value));
+                self.pool.fold(node)
             }
         }
     }

@@ -184,17 +184,9 @@ pub(in crate::analyse) fn chosen(pool: &mut Pool, value: ExprId, point: &Point) 
     }
     match pool.node(value) {
         Node::Const(_) | Node::Input(_) | Node::Result => value,
-        Node::Unary(op, a) => {
-            let a = chosen(pool, a, point);
-            pool.unary(op, a)
-        }
-        Node::Binary(op, a, b) => {
-            let [a, b] = [a, b].map(|part| chosen(pool, part, point));
-            pool.binary(op, a, b)
-        }
-        Node::Ternary(op, a, b, c) => {
-            let [a, b, c] = [a, b, c].map(|part| chosen(pool, part, point));
-            pool.ternary(op, a, b, c)
+        node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+            let node = node.map(|part| chosen(pool, part, point));
+            pool.fold(node)
         }
         Node::Select(condition, a, b) => {
             let taken = if point.holds(pool, condition) { a } else { b };
