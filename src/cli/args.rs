@@ -19,10 +19,10 @@ pub(super) const MAX_SIDE: u32 = 16384;
 /// A technique, as an argument.
 pub(super) type TechniqueArgument = &'static dyn Technique;
 
-/// Where something runs.
+/// The arguments that choose a machine.
 #[derive(clap::Args)]
 pub(super) struct Machine {
-    /// Where it runs: auto is a GPU, or the CPU where there is only a software adapter
+    /// The machine: auto is a GPU, or the CPU where there is only a software adapter
     /// [default: auto to render and compare; gpu for bench; cpu to count, to evaluate, and for light]
     #[arg(long, alias = "executor", value_enum, value_name = "WHERE")]
     pub(super) backend: Option<Backend>,
@@ -32,7 +32,7 @@ pub(super) struct Machine {
     pub(super) adapter: AdapterChoice,
 }
 
-/// Where something runs, as an argument.
+/// A kind of machine, as an argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Backend {
     /// A GPU if there is one, else the CPU

@@ -4,7 +4,7 @@
 //! comparison can go either way it follows both, and the union of the outcomes
 //! is admissible: near the boundary of a guard that means several cases.
 //!
-//! How neighbours of a boundary are judged: WGSL fixes no rounding mode, so an
+//! Neighbours of a boundary are judged as follows: WGSL fixes no rounding mode, so an
 //! operand whose exact value lies between two `f32` may be either; one whose
 //! exact value is an `f32` is that value. With `py = 0.25` the guard
 //! `1 - py < dH` is therefore decided for every `dH`, with `py = 0.1` it is

@@ -1,4 +1,4 @@
-//! Whether a profile is one of a table: as it is, mapped, or not at all.
+//! The fit of a profile to a table: as it is, mapped, or not at all.
 //!
 //! A table changes more often than a scene is counted. While the discrete
 //! inputs stay the same, the states mean what they meant, and every count

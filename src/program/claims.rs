@@ -261,7 +261,7 @@ fn junction(program: &Program, pool: &Pool, parts: &[CondId], levels: &[u8], dec
 mod tests {
     use super::*;
 
-    /// Where the chooser of an `if` is not known but both branches say the same, so does the `if`.
+    /// An `if` whose chooser is not known is known where both branches say the same.
     #[test]
     fn branches_that_agree_need_no_chooser() {
         let text = r#"Table(language: 1, name: "agree", hit_policy: First,

@@ -110,7 +110,7 @@ impl Rational {
     }
 }
 
-/// What rewriting formulas needs besides.
+/// Operations that only the rewriting of formulas needs.
 #[cfg(any(feature = "precise", test))]
 impl Rational {
     pub(crate) const HALF: Self = Self(Ratio::new_raw(1, 2));

@@ -1,4 +1,4 @@
-//! Whether linear constraints can hold together, over the reals: elimination
+//! Linear constraints that can, or cannot, hold together over the reals: elimination
 //! after Fourier and Motzkin, with exact rationals.
 //!
 //! A table has few continuous inputs and a path few comparisons, so the

@@ -6,8 +6,8 @@
 //! If the terms have negative powers of `u`, or cancel at `u = 0`, the group is
 //! written as `c u^n K(u)` with a kernel K that is 1 at 0.
 //!
-//! Where the lines meet follows from bounds of their errors in `f32`: what the
-//! series leaves out, and how much the closed form cancels.
+//! The place where the lines meet follows from bounds of their errors in `f32`: the rest that the
+//! series leaves out, and the digits that the closed form cancels.
 
 use std::collections::BTreeMap;
 

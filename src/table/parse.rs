@@ -98,7 +98,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What stands in brackets is read for itself, even inside of bounds.
+    /// Reads what stands in brackets for itself, even inside of bounds.
     fn bracketed<T>(&mut self, inner: impl FnOnce(&mut Self) -> Result<T, Diagnostic>) -> Result<T, Diagnostic> {
         let bounds = std::mem::replace(&mut self.bounds, false);
         let result = self.nested(inner);

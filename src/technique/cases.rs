@@ -6,18 +6,18 @@ use super::rendered::{DEFAULT, NONE};
 use crate::picture::sheet::{Legend, case_colour};
 use crate::program::Program;
 
-/// How often a case was taken.
+/// The number of pixels that took a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CaseCount<'p> {
     /// Its id; `None` for the default.
     pub id: Option<u32>,
-    /// In how many pixels.
+    /// The number of pixels.
     pub pixels: usize,
-    /// What the table says about it.
+    /// Its description in the table.
     pub doc: Option<&'p str>,
 }
 
-/// How many pixels took each case, those taken only, by id; the default comes last.
+/// The numbers of pixels by case, in the order of ids, without cases that no pixel took; the default comes last.
 pub fn counts<'p>(program: &'p Program, cases: &[u32]) -> Vec<CaseCount<'p>> {
     let mut pixels = BTreeMap::<u32, usize>::new();
     for case in cases.iter().filter(|case| **case != NONE) {

@@ -7,7 +7,7 @@ use crate::profile;
 
 /// Counts the evaluations of a technique's table in a frame, by state and by case.
 ///
-/// Where the machine has counters of its own, they have to agree with the states of the pixels.
+/// Counters of the machine, if it has any, have to agree with the states of the pixels.
 ///
 /// # Errors
 /// When the technique evaluates no table of cases, the machine fails, or its counters disagree.

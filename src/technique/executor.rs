@@ -6,7 +6,7 @@ use std::sync::Arc;
 #[cfg(feature = "gpu")]
 use crate::gpu::Gpu;
 
-/// Where techniques are evaluated.
+/// The machine that evaluates techniques.
 #[derive(Debug)]
 pub enum Executor {
     /// In plain Rust, tables by the interpreter.

@@ -24,7 +24,7 @@ pub struct Frame<'s> {
     pub on: &'s Executor,
     /// The scene's triangles, for rays.
     pub rays: Arc<Rays>,
-    /// What the camera sees, at the size of the frame.
+    /// The surfaces that the camera sees, at the size of the frame.
     pub surfaces: Arc<Surfaces>,
     /// The settings that were chosen.
     pub settings: Settings,
@@ -41,7 +41,7 @@ pub struct Frame<'s> {
 #[derive(Default)]
 struct Shared(Mutex<Vec<(TypeId, String, Thing)>>);
 
-/// What techniques share: made once, by whichever needs it first.
+/// A value that techniques share: made once, by whichever needs it first.
 type Thing = Arc<dyn Any + Send + Sync>;
 
 impl<'s> Frame<'s> {
@@ -97,7 +97,7 @@ impl<'s> Frame<'s> {
         }
     }
 
-    /// What techniques share: made at the first call with this key, and the same at every other call with it, of
+    /// A value that techniques share: made at the first call with this key, and the same at every other call with it, of
     /// this frame and of its clones. The key has to say everything that the value depends on but scene, size and
     /// machine.
     ///

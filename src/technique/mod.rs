@@ -67,7 +67,7 @@ pub trait Technique: Sync {
     /// The settings that it reads.
     fn settings(&self) -> &'static [Setting];
 
-    /// What it can be asked for besides its picture.
+    /// Its abilities besides its picture.
     fn abilities(&self) -> &'static [Ability];
 
     /// The technique whose picture is the true one for this technique.
@@ -85,7 +85,7 @@ pub trait Technique: Sync {
     fn prepare<'s>(&self, frame: &Frame<'s>) -> Result<Box<dyn Prepared<'s> + 's>, Failure>;
 }
 
-/// What a technique can be asked for besides its picture.
+/// A thing that a technique can be asked for besides its picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ability {
     /// The layer [`VALUE`](rendered::VALUE).

@@ -45,7 +45,7 @@ pub trait Prepared<'s> {
         Err(Failure::bare("", error))
     }
 
-    /// How many pixels are in each state of the table, by counters of the device; `None` where it has none.
+    /// The numbers of pixels by state of the table, from counters of the device; `None` where it has none.
     ///
     /// # Errors
     /// When the device fails.
@@ -96,7 +96,7 @@ pub enum Detail {
     Variants,
 }
 
-/// What passes are measured with.
+/// The instrument that passes are measured with.
 #[cfg(feature = "gpu")]
 #[derive(Debug)]
 pub enum Watch<'g> {
@@ -116,7 +116,7 @@ impl<'g> Watch<'g> {
         }
     }
 
-    /// What times are taken with.
+    /// The clock that times are taken with.
     pub fn clock(&self) -> Clock {
         match self {
             Watch::Device(stopwatch) => stopwatch.clock(),
@@ -147,7 +147,7 @@ pub struct Pass<'p> {
     pub variant: &'static str,
     /// The name of the pass.
     pub name: &'static str,
-    /// What the pass costs, by counts that do not depend on the device; where they were asked for.
+    /// The costs of the pass, by counts that do not depend on the device; where they were asked for.
     pub costs: Option<Costs>,
     run: Run<'p>,
 }

@@ -122,7 +122,7 @@ impl<'s> Prepared<'s> for ByRays<'s> {
     }
 }
 
-/// How many samples a pixel gets.
+/// The numbers of samples of a pixel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Samples {
     /// As many at first in a pixel near a silhouette.

@@ -16,3 +16,4 @@ mod published_numbers;
 mod support;
 #[cfg(feature = "trial")]
 mod trial;
+mod words;

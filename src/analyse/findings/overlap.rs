@@ -28,7 +28,7 @@ pub struct Overlap {
     /// Of both, the states in which the earlier case is the first of all whose
     /// guard can hold: where it is order that decides between these two.
     pub states_first: (usize, usize),
-    /// Whether some inputs are known to give different values. Otherwise this
+    /// True if some inputs are known to give different values. Otherwise this
     /// depends on comparisons that are not linear, and is not decided here.
     pub certain: bool,
     /// One such input, in the form that `explain --at` takes, with different
@@ -53,7 +53,7 @@ pub fn overlaps(program: &Program) -> Vec<Overlap> {
     found
 }
 
-/// What can be said of two cases; `earlier` are the states that cases before both can claim.
+/// The overlap of two cases, if there is any; `earlier` are the states that cases before both can claim.
 fn overlap(study: &mut Study<'_>, first: usize, second: usize, earlier: Set) -> Option<Overlap> {
     let guards = &study.rows.guards;
     if !study.space.sets.meets(guards[first], guards[second]) {
@@ -84,7 +84,7 @@ fn relevant(study: &Study<'_>, first: usize, second: usize) -> InputSet {
     words::mentioned(study.program, first).or(words::mentioned(study.program, second))
 }
 
-/// Whether both cases can hold, within a set, with different values.
+/// Returns whether both cases can hold, within a set, with different values.
 fn differ(study: &mut Study<'_>, first: usize, second: usize, within: Set) -> bool {
     if let ([a], [b]) = (study.rows.own[first].as_slice(), study.rows.own[second].as_slice()) {
         // One value each: mostly they are the same everywhere or nowhere.
@@ -98,7 +98,7 @@ fn differ(study: &mut Study<'_>, first: usize, second: usize, within: Set) -> bo
     !study.space.is_void(different)
 }
 
-/// Where both cases hold, within a set, with different values.
+/// The part of a set in which both cases hold with different values.
 fn different(study: &mut Study<'_>, first: usize, second: usize, within: Set) -> Set {
     let mut result = Set::EMPTY;
     for a in &study.rows.own[first] {

@@ -1,6 +1,6 @@
 //! U0506, U0512: declared symmetries that the table does not have everywhere.
 //!
-//! Where a case contradicts its image, one of the two is wrong, and a pair alone
+//! If a case contradicts its image, one of the two is wrong, and a pair alone
 //! does not say which. But the images of the images have a say as well: if most
 //! agree, the case in the minority is the one to mend, and the others say how.
 //! Symmetries that leave the result alone are asked first; only if they are

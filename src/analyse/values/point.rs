@@ -12,7 +12,7 @@ pub(in crate::analyse) struct Witness {
     pub(in crate::analyse) levels: Vec<Option<u8>>,
     /// A number for each continuous input.
     pub(in crate::analyse) numbers: Vec<Option<f64>>,
-    /// Whether these very inputs reach the set. Otherwise nothing is known of the numbers.
+    /// True if these very inputs reach the set. Otherwise nothing is known of the numbers.
     pub(in crate::analyse) certain: bool,
 }
 

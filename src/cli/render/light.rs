@@ -139,7 +139,7 @@ fn mean(frame: &Frame<'_>, rendered: &Rendered, layer: &str) -> f64 {
     counts.iter().map(|count| f64::from(*count)).sum::<f64>() / surfaces as f64
 }
 
-/// How far light is from the true one, relative to it.
+/// The error of light against the true one, relative to it.
 fn error(frame: &Frame<'_>, rendered: &Rendered, truth: &Rendered) -> f64 {
     let [light, truth] = [rendered, truth].map(|rendered| rendered.colours(LIGHT).unwrap_or_default());
     of_light(&frame.surfaces, light, truth)

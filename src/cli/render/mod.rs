@@ -208,7 +208,7 @@ fn contact(frame: &Frame<'_>, answers: &[Answer<'_>]) -> std::result::Result<Rgb
     sheet::contact(&title, &entries)
 }
 
-/// How far an answer is from the true one, by a layer that both have.
+/// The error of an answer against the true one, by a layer that both have.
 fn error(frame: &Frame<'_>, answer: &Answer<'_>, truth: &Rendered) -> std::result::Result<Option<f64>, Failure> {
     let (surfaces, rendered) = (&frame.surfaces, &answer.rendered);
     if let (Some(truth), Some(value)) = (truth.numbers(VALUE), rendered.numbers(VALUE)) {

@@ -1,7 +1,7 @@
 //! Results that consist of several components: taken apart, put together, their structures declared.
 //!
-//! What languages share is here. How each of them writes a vector, an array or a structure
-//! is its [`Dialect`].
+//! The languages share this; a [`Dialect`] says how each of them writes a vector, an array or a
+//! structure.
 
 use super::{Dialect, Prefix};
 use crate::program::DataType;

@@ -1,4 +1,4 @@
-//! What differs between the languages that Umbrage prints itself.
+//! The differences between the languages that Umbrage prints itself.
 
 mod composite;
 pub(crate) mod glsl;
@@ -17,7 +17,7 @@ pub(super) enum Type {
     Data(DataType),
     /// The output together with the case taken.
     Result,
-    /// What the host's fetch functions are given.
+    /// The argument of the host's fetch functions.
     Site,
 }
 
@@ -71,7 +71,7 @@ impl Prefix {
     }
 }
 
-/// How a language says things. What is not overridden is the way of the C family.
+/// The phrases of a language. Methods that are not overridden speak like the C family.
 pub(super) trait Dialect {
     /// The name of a scalar type.
     fn scalar(&self, scalar: Scalar) -> &'static str;
@@ -96,7 +96,7 @@ pub(super) trait Dialect {
             Type::Site => self.site(prefix),
         }
     }
-    /// The type of what the host's fetch functions are given.
+    /// The type of the argument of the host's fetch functions.
     fn site(&self, prefix: &Prefix) -> String {
         prefix.site()
     }
@@ -266,7 +266,7 @@ pub(super) trait Dialect {
     fn lookup_call(&self, prefix: &Prefix, word: &str) -> String {
         format!("{}_lookup({word})", prefix.lower)
     }
-    /// What makes the host's reader of the lookup visible where the module cannot see it by itself.
+    /// The statement that makes the host's reader of the lookup visible, where the module cannot see it by itself.
     fn lookup_import(&self, _: &Prefix) -> String {
         String::new()
     }

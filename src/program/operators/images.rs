@@ -31,7 +31,7 @@ pub enum Image {
     Poles {
         /// The place of a pole.
         pole: f64,
-        /// What an operand there is, as the end of a sentence.
+        /// The nature of an operand there, as the end of a sentence.
         what: &'static str,
     },
     /// The distance from the whole number below.

@@ -1,4 +1,4 @@
-//! What the table of operators says of each: a row per operator, of a kind per arity.
+//! The rows of the table of operators: one per operator, of a kind per arity.
 
 use super::images::{Bounded, Bounds, Image};
 use super::{Notation, Spelling, Spellings, UnaryOp};
@@ -13,7 +13,7 @@ pub struct Operands {
     pub hi: f64,
     /// Leaves out the bounds themselves.
     pub open: bool,
-    /// What an operation on others is, as the end of a sentence.
+    /// The name of an operation on other operands, as the end of a sentence.
     pub outside: &'static str,
 }
 

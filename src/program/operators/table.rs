@@ -20,7 +20,7 @@ macro_rules! operators {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self::$Name),*];
 
-            /// What is known of the operator.
+            /// The facts about the operator.
             #[inline]
             pub const fn row(self) -> &'static $Row {
                 static ROWS: &[$Row] = &[$($row),*];

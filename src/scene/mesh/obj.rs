@@ -1,8 +1,8 @@
 //! Wavefront OBJ → triangles.
 //!
 //! A file is bytes, not text: comments and names of materials are in any encoding.
-//! What describes faces is read; what describes their looks is passed over; what
-//! describes surfaces of another kind is refused by name, as is what is unknown.
+//! Lines that describe faces are read, and those that describe their looks are passed over.
+//! Surfaces of another kind are refused by name, as are unknown lines.
 
 use glam::DVec3;
 

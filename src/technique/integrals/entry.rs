@@ -99,7 +99,7 @@ struct Integrals<'s> {
     settings: Settings,
 }
 
-/// What divides the directions and evaluates the tables.
+/// The machine that divides the directions and evaluates the tables.
 enum Shader<'s> {
     /// The batch interpreter, and plain Rust around it.
     Interpreter,

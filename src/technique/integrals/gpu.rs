@@ -37,7 +37,7 @@ pub(super) struct LightPipeline<'g> {
 /// The constants of the skeleton that say what a scene is made of.
 const COUNTED: [&str; 4] = ["BALLS", "PLATES", "CORNERS", "LOBES"];
 
-/// How many there are of each of [`COUNTED`]: the shape of a scene.
+/// The numbers of each of [`COUNTED`] in a scene.
 fn counts(scene: &Surroundings) -> [usize; 4] {
     let corners = scene.plates.iter().map(|plate| plate.corners.len()).sum();
     [scene.balls.len(), scene.plates.len(), corners, scene.lobes.len()]

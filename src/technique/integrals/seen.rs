@@ -10,7 +10,7 @@ use crate::scene::rays::Rays;
 use crate::scene::surfaces::Surfaces;
 use crate::technique::{Frame, Samples};
 
-/// What hides and sends light in a frame, and the surfaces that the camera sees.
+/// The things that hide and send light in a frame, and the surfaces that the camera sees.
 #[derive(Debug)]
 pub(super) struct Seen {
     pub(super) surroundings: Surroundings,

@@ -1,4 +1,4 @@
-//! What hides parts of the sky at a surface: caps and facets of the sphere of
+//! Occluders, which hide parts of the sky at a surface: caps and facets of the sphere of
 //! directions, and the angle from a direction to the nearest of their borders.
 
 use std::f64::consts::PI;

@@ -35,7 +35,7 @@ pub(crate) fn filtered(probe: &Probe<'_>, settings: &Settings) -> f32 {
     }
 }
 
-/// Where a fragment is between the ends of its run along an axis: 0 between two negative ends, negative (as a
+/// The place of a fragment between the ends of its run along an axis: 0 between two negative ends, negative (as a
 /// mark) between two positive ones, else the distance to the positive end as a share of the length.
 fn relative(small: End, large: End, place: f32, settings: &Settings) -> f32 {
     let [to_small, to_large] = distances(small, large, place);

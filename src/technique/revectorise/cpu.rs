@@ -20,7 +20,7 @@ pub struct Query<'a> {
     pub map: &'a ShadowMap,
     /// The receivers, made for a map of this size.
     pub receivers: &'a Receivers,
-    /// How to search and filter.
+    /// The settings of search and filter.
     pub settings: &'a Settings,
 }
 
@@ -33,7 +33,7 @@ pub struct Evaluations {
     pub pixels: Vec<u32>,
 }
 
-/// How one fragment was decided.
+/// The decision about one fragment.
 struct Decision {
     value: f32,
     case: u32,
@@ -183,7 +183,7 @@ impl<'v> Evaluator<'v> {
         Self { vocabulary, interpreter: Interpreter::new(vocabulary.program()) }
     }
 
-    /// What the table is asked about a fragment, if it is asked.
+    /// The facts about a fragment that the table is asked with, if it is asked.
     fn facts<'a>(&self, probe: Probe<'a>, settings: &Settings) -> Option<Facts<'a>> {
         if !probe.lit && !self.vocabulary.has_kind() {
             return None;

@@ -1,4 +1,4 @@
-//! What passes exchange: shadow map, receivers, visibility.
+//! The data that passes exchange: shadow map, receivers, visibility.
 //!
 //! **Receivers are fixed point.** The depth and the slopes of a receiver are
 //! multiples of [`DEPTH_UNIT`], small enough for `f32` to compute
@@ -40,7 +40,7 @@ impl ShadowMap {
     }
 }
 
-/// What is to be done about a pixel.
+/// The kinds of pixels, by what has to be done about them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[repr(u32)]
 pub enum ReceiverKind {
@@ -68,7 +68,7 @@ pub struct Receiver {
     pub v: f32,
     /// Depth of the plane at the centre of the texel that the point is in, within 0 to 1.
     pub z: f32,
-    /// What is to be done about it.
+    /// Its kind, which says what has to be done about it.
     pub kind: ReceiverKind,
     /// Change of the depth from a texel to the next on the right, within [`max_slope`].
     pub dz_dx: f32,
@@ -100,7 +100,7 @@ pub struct Receivers {
     pub points: Vec<Receiver>,
 }
 
-/// How techniques search and filter.
+/// Settings of search and filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Longest run that is revectorised, in texels, and with it the length of every walk. A longer
@@ -126,7 +126,7 @@ impl Default for Settings {
     }
 }
 
-/// How much of the light reaches each pixel, and how that was decided.
+/// The share of the light that reaches each pixel, and the case that decided it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Visibility {
     /// 0 in full shadow, 1 in full light; row by row from the top.

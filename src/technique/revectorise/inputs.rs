@@ -11,7 +11,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 pub(crate) use crate::points::Point;
 use crate::program::{InputId, Program, Value};
 
-/// What an input of a table can be.
+/// The quantities that an input of a table can be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     /// Discontinuity along an axis.
@@ -83,7 +83,7 @@ impl Quantity {
     }
 }
 
-/// Which quantities a table asks for, and in which words.
+/// The quantities that a table asks for, and its words for them.
 #[derive(Debug)]
 pub struct Vocabulary<'p> {
     program: &'p Program,
@@ -137,7 +137,7 @@ impl<'p> Vocabulary<'p> {
         self.has_kind
     }
 
-    /// What the table is to be asked about a fragment. `None` where it is not asked: away from
+    /// The facts about a fragment that the table is asked with. `None` where it is not asked: away from
     /// silhouettes, and on runs that are too long to be searched.
     pub(crate) fn facts<'a>(&self, probe: Probe<'a>, settings: &Settings) -> Option<Facts<'a>> {
         // The rule of isolated texels belongs to the technique that treats both kinds of fragment.
@@ -206,12 +206,12 @@ impl Run {
     }
 }
 
-/// How far the borders of two end texels are from a place in the texel between, in texels.
+/// The distances from a place in a texel to the borders of the two end texels beside it, in texels.
 pub(crate) fn distances(small: End, large: End, place: f32) -> [f32; 2] {
     [(small.steps - 1) as f32 + place, large.steps as f32 - place]
 }
 
-/// What was found about a fragment that every state of a table may ask for; the rest is searched on demand.
+/// The facts about a fragment that every state of a table may ask for; the rest is searched on demand.
 #[derive(Debug)]
 pub(crate) struct Facts<'a> {
     probe: Probe<'a>,
@@ -236,7 +236,7 @@ impl Facts<'_> {
         }
     }
 
-    /// Whether, at a corner, the neighbour opposite to the discontinuity across still has one along the axis.
+    /// Returns whether, at a corner, the neighbour opposite to the discontinuity across still has one along the axis.
     fn dominates(&self, axis: Axis) -> bool {
         let [h, v] = self.sides;
         if !h.one() || !v.one() {

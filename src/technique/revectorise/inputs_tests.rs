@@ -33,7 +33,7 @@ fn visibility(variant: Variant, map: &ShadowMap, receivers: &Receivers) -> Visib
     cpu::visibility(variant, program, query, &|_| ()).expect("its inputs are known")
 }
 
-/// How a technique shows the edge of a half plane: against the true edge moved by `shift` texels.
+/// The edge of a half plane as a technique shows it, against the true edge moved by `shift` texels.
 struct Edge {
     /// Samples on the wrong side of the line.
     wrong: usize,

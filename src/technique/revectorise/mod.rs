@@ -4,7 +4,7 @@
 //! scene ──▶ light, camera, triangles ──▶ ShadowMap, Receivers ──▶ Visibility ──▶ picture
 //! ```
 //!
-//! What lies between the shadow map and the visibility is the technique. Its
+//! The technique lies between the shadow map and the visibility. Its
 //! skeleton (which texels are read, how far a walk goes) is written by hand,
 //! once here in plain Rust and once in WGSL; what the inputs so found *mean* is
 //! said by the tables alone, which the interpreter or the compiler evaluates.

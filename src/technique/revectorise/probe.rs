@@ -1,4 +1,4 @@
-//! What the neighbourhood of a fragment looks like in the shadow map:
+//! The neighbourhood of a fragment in the shadow map:
 //! discontinuities, walks, neighbours, breaks.
 //!
 //! This is the reference of the search that every technique shares, written to
@@ -17,7 +17,7 @@ pub(crate) const RIGHT: Step = [1, 0];
 pub(crate) const TOP: Step = [0, -1];
 pub(crate) const BOTTOM: Step = [0, 1];
 
-/// Which of the two neighbours along an axis are opposite.
+/// The neighbours along an axis that are opposite to the fragment.
 ///
 /// `small` is the side of the smaller coordinate (left, top), `large` the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -71,7 +71,7 @@ impl Axis {
     }
 }
 
-/// Where a walk ended.
+/// The end of a walk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct End {
     /// Number of the end texel, the neighbour being 1.
@@ -132,7 +132,7 @@ impl<'a> Probe<'a> {
         [LEFT, RIGHT, TOP, BOTTOM].into_iter().all(|step| self.opposite(plus(at, step, 1)) != own)
     }
 
-    /// Which neighbours of a texel along an axis are opposite to the fragment.
+    /// The neighbours of a texel along an axis that are opposite to the fragment.
     pub(crate) fn sides_at(&self, at: Step, axis: Axis) -> Sides {
         let [small, large] = axis.steps().map(|step| self.opposite(plus(at, step, 1)));
         Sides { small, large }

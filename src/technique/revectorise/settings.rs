@@ -77,7 +77,7 @@ pub(super) fn bias(frame: &Frame<'_>) -> Bias {
     Bias { constant, slope }
 }
 
-/// How variants search and filter in a frame.
+/// The settings of search and filter in a frame.
 pub(super) fn settings(frame: &Frame<'_>) -> Settings {
     Settings {
         search_limit: frame.settings.whole(&SEARCH_LIMIT),

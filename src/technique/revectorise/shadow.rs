@@ -1,4 +1,4 @@
-//! What every variant and both executors start from and end with: the light's depths and the receivers of a frame,
+//! The start and the end of every variant on both executors: the light's depths and the receivers of a frame,
 //! the inputs that the search finds in them, and visibility as layers.
 
 use std::sync::Arc;

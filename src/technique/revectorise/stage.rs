@@ -15,7 +15,7 @@ use crate::scene::surfaces::Surfaces;
 use crate::scene::view::{Plane, View};
 use crate::technique::shade::faces;
 
-/// What is added to the depths of a shadow map, so that a surface does not shadow itself.
+/// The amount added to the depths of a shadow map, so that a surface does not shadow itself.
 ///
 /// Receivers are continued as planes, which meet the map's own plane exactly; the
 /// bias has to cover rounding and curvature only, and can be small.
@@ -43,11 +43,11 @@ impl Default for Bias {
 pub struct Stage<'s> {
     /// The scene.
     pub scene: &'s Scene,
-    /// What rays are sent through.
+    /// The triangles that rays are sent through.
     pub rays: Arc<Rays>,
     /// The light that has a shadow map.
     pub light: Punctual,
-    /// What the light sees.
+    /// The view of the light.
     pub light_view: View,
     /// The plane of each triangle over the light's square; `None` if it is seen edge-on.
     planes: Vec<Option<Plane>>,
@@ -78,7 +78,7 @@ impl<'s> Stage<'s> {
         Surfaces::new(self.scene, &self.rays, width, height)
     }
 
-    /// What the light sees, one depth per texel, at the texel's centre.
+    /// The depths that the light sees, one per texel, at the texel's centre.
     pub fn shadow_map(&self, size: u32, bias: Bias) -> ShadowMap {
         let texel = 1.0 / f64::from(size);
         let depth = |index: u64| {
@@ -94,7 +94,7 @@ impl<'s> Stage<'s> {
         ShadowMap { size, depth: (0..u64::from(size) * u64::from(size)).into_par_iter().map(depth).collect() }
     }
 
-    /// Where the points of surfaces lie in a shadow map of a size.
+    /// The places of points of surfaces in a shadow map of a size.
     pub fn receivers(&self, surfaces: &Surfaces, size: u32) -> Receivers {
         let receiver = |point: &Option<SurfacePoint>| match point {
             Some(point) => self.receiver(point, size),

@@ -18,15 +18,15 @@ const MAX_STEPS: usize = 20_000;
 /// Most points that are tried where what is not linear decides.
 const MAX_TRIES: usize = 256;
 
-/// How far from zero a value counts as positive or negative, as a share of what it is the sum of: a
-/// hundred roundings of `f32`.
+/// The least distance from zero at which a value counts as positive or negative, as a share of the
+/// terms that it is the sum of: a hundred roundings of `f32`.
 const MARGIN: f64 = 6e-6;
 
-/// How close to zero a value counts as zero: a few roundings of `f64`.
+/// The largest distance from zero at which a value counts as zero: a few roundings of `f64`.
 const EXACT: f64 = 1e-15;
 
 impl Space<'_> {
-    /// What real numbers and levels can reach of a set.
+    /// The part of a set that real numbers and levels can reach.
     ///
     /// A combination of signs that some numbers have is kept together with
     /// others that differ from it in signs only.
@@ -46,13 +46,13 @@ impl Space<'_> {
         result
     }
 
-    /// Whether nothing can reach a set.
+    /// Returns whether nothing can reach a set.
     pub(in crate::analyse) fn is_void(&mut self, set: Set) -> bool {
         // Without comparisons every combination of levels can be reached.
         if self.questions.is_empty() { set.is_empty() } else { self.prune(set).is_empty() }
     }
 
-    /// Whether something can reach both sets.
+    /// Returns whether something can reach both sets.
     pub(in crate::analyse) fn can_meet(&mut self, a: Set, b: Set) -> bool {
         if !self.sets.meets(a, b) {
             return false;
@@ -109,7 +109,7 @@ impl Space<'_> {
         false
     }
 
-    /// Whether some numbers have all these signs.
+    /// Returns whether some numbers have all these signs.
     fn possible(&mut self, answers: &[(usize, u8)]) -> bool {
         let signs = self.forms_of(answers);
         if let Some(known) = self.possible.get(&signs) {
@@ -174,8 +174,8 @@ impl Space<'_> {
         })
     }
 
-    /// Whether numbers are in a set that tests only comparisons: computed, by a margin that rounding
-    /// cannot take away.
+    /// Returns whether numbers are in a set that tests only comparisons: computed, by a margin that
+    /// rounding cannot take away.
     fn contains(&self, set: Set, numbers: &[Option<f64>]) -> bool {
         let numbers = numbers.iter().map(|number| number.unwrap_or_default()).collect();
         let point = Point { levels: Vec::new(), numbers };
@@ -200,7 +200,7 @@ impl Space<'_> {
         Some(Witness { levels, numbers: numbers.iter().map(|number| Some(*number)).collect(), certain: true })
     }
 
-    /// Whether numbers of a box may reach a set.
+    /// Returns whether numbers of a box may reach a set.
     pub(in crate::analyse) fn can_be_in(&self, set: Set, part: &Boxed) -> bool {
         self.reach(set, part).is_some()
     }
