@@ -28,6 +28,10 @@ pub(super) fn lines(text: &str) -> Option<Vec<(usize, String)>> {
     for (index, (span, token)) in tokens.iter().enumerate() {
         let near = |offset: isize| index.checked_add_signed(offset).and_then(|i| tokens.get(i)).map(|(_, t)| t);
         let between = &text[end..span.start];
+        // A number that runs into a word is of no expression: a pattern of bits with a letter in it.
+        if let (Some(Token::Number(_)), Token::Word(_), "") = (near(-1), token, between) {
+            return None;
+        }
         let breaks = between.matches('\n').count();
         if breaks > 0 {
             let indent = between.rsplit('\n').next().map_or(0, |blanks| blanks.chars().count());
@@ -127,6 +131,13 @@ mod tests {
         assert_eq!(one("sin(s*x)/s|x=x0..x1"), "sin(s * x) / s | x = x0 .. x1");
         assert_eq!(one("sum( n in gauss,n.y*(a).x )- 1"), "sum(n in gauss, n.y * (a).x) - 1");
         assert_eq!(one("x in {-1,0}"), "x in {-1, 0}");
+    }
+
+    #[test]
+    fn texts_that_are_no_expressions_stay() {
+        assert_eq!(lines("0x"), None);
+        assert_eq!(lines("1-01x"), None);
+        assert_eq!(one("2 x"), "2 x");
     }
 
     #[test]

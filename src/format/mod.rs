@@ -72,7 +72,7 @@ fn laid_out(text: &str) -> String {
     print::print(&rows)
 }
 
-/// What must stay: tokens without the blanks of expressions and without commas
+/// The part of a text that must stay: tokens without the blanks of expressions and without commas
 /// that nothing follows, and then the comments.
 fn essence<'a>(tokens: &[Token<'a>]) -> (Vec<String>, Vec<&'a str>) {
     let significant: Vec<&Token<'_>> = tokens.iter().filter(|token| !token.is_comment()).collect();

@@ -129,7 +129,7 @@ fn what_is_no_table_is_refused() {
     assert_eq!(failure.diagnostics[0].code, codes::RON);
 }
 
-/// How often each table is put in disorder.
+/// The number of times that each table is put in disorder.
 const ROUNDS: usize = 3;
 
 /// White space and comments are scattered over tables; formatted, they are what they were, and stay so.
