@@ -1,5 +1,6 @@
 //! `umbrage fmt`: tables in the layout of this project.
 
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +11,7 @@ use super::{Outcome, Result};
 use crate::build;
 use crate::diag::{Failure, Source};
 use crate::format;
-use crate::text::file::{STDIN, read_stdin, read_text, shown, utf8};
+use crate::text::file::{STDIN, read_stdin, read_text, settle, shown, utf8};
 
 /// Largest accepted table, in bytes.
 const MAX_BYTES: u64 = 16 << 20;
@@ -39,7 +40,13 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut done = Vec::new();
     let mut outcome = Outcome::Clean;
     for path in &arguments.paths {
-        for file in if path.as_os_str() == "-" { vec![path.clone()] } else { build::find_tables(path)? } {
+        let files = if path.as_os_str() == "-" { vec![path.clone()] } else { build::find_tables(path)? };
+        // A run that was interrupted may have left a table that is formatted but not in its place.
+        let directories: BTreeSet<&Path> = files.iter().filter_map(|file| file.parent()).collect();
+        for directory in directories.into_iter().filter(|_| !arguments.check && path.as_os_str() != "-") {
+            settle(if directory.as_os_str().is_empty() { Path::new(".") } else { directory })?;
+        }
+        for file in files {
             let formatted = read(&file).and_then(|before| {
                 let after = format::format(&before)?;
                 Ok(Formatted { path: file, before, after })

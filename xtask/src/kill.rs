@@ -27,7 +27,7 @@ struct Subject {
     name: &'static str,
     /// The arguments for the old files and for the new ones.
     arguments: [&'static [&'static str]; 2],
-    /// What is put in place before, for the old files and for the new ones: files in the
+    /// Files that are put in place before, for the old files and for the new ones: paths in the
     /// directory of the trial, with their contents.
     before: [Vec<(&'static str, String)>; 2],
 }
@@ -80,7 +80,9 @@ fn subjects(root: &Path) -> io::Result<Vec<Subject>> {
     // Another table of the same name: its default is another number.
     let changed = table.replacen("\n    default: 1,", "\n    default: 0.5,", 1);
     let scene = fs::read_to_string(root.join("scenes/slope.ron"))?;
+    let profile = fs::read_to_string(root.join("profiles/smsr.ron"))?;
     let tables = |text: &str| vec![("tables/smsr.ron", text.to_owned())];
+    let profiled = |text: &str| vec![("tables/smsr.ron", text.to_owned()), ("smsr.ron", profile.clone())];
     Ok(vec![
         Subject { name: "build", arguments: [&["build"], &["build"]], before: [tables(&table), tables(&changed)] },
         Subject {
@@ -123,10 +125,10 @@ fn subjects(root: &Path) -> io::Result<Vec<Subject>> {
         Subject {
             name: "tune",
             arguments: [
-                &["tune", "--rows", "256", "--rounds", "1", "--plan", "ladder,ordered"],
-                &["tune", "--rows", "512", "--rounds", "1", "--plan", "ladder,ordered"],
+                &["tune", "tables/smsr.ron", "--profile", "smsr.ron", "--rows", "256", "--rounds", "1"],
+                &["tune", "tables/smsr.ron", "--profile", "smsr.ron", "--rows", "512", "--rounds", "1"],
             ],
-            before: [tables(&table), tables(&table)],
+            before: [profiled(&table), profiled(&table)],
         },
     ])
 }
@@ -149,7 +151,7 @@ impl Subject {
             restore(place, &old)?;
             self.prepare(place, 1)?;
             let before = files(place)?;
-            let mut child = self.command(place, program, 1).spawn()?;
+            let mut child = self.command(place, program, 1).stderr(Stdio::null()).spawn()?;
             // Also a little after its usual end.
             thread::sleep(takes.mul_f64(1.1 * uniform(random)));
             tally.finished += usize::from(child.try_wait()?.is_some());
@@ -168,7 +170,7 @@ impl Subject {
             }
             let version = trial % 2;
             self.prepare(place, version)?;
-            self.command(place, program, version).status()?;
+            self.command(place, program, version).stderr(Stdio::null()).status()?;
             let after = files(place)?;
             tally.litter += usize::from(without_hidden(&after).len() != after.len());
             tally.not_mended += usize::from(!self.same(&after, [&old, &new][version]));
@@ -208,7 +210,7 @@ impl Subject {
     fn command(&self, place: &Path, program: &Path, version: usize) -> Command {
         let mut command = Command::new(program);
         command.args(self.arguments[version]).current_dir(place);
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        command.stdin(Stdio::null()).stdout(Stdio::null());
         command
     }
 }

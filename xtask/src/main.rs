@@ -24,8 +24,8 @@ Usage: cargo xtask <task> [arguments]
   package                        build what would be published, from what would be in it
   bless                          rewrite generated/ and the snapshots from what the code does now
   errata                         write docs/errata.md: what the analyses find in tables as printed
-  kill [TIMES [SEED]]            kill build, fmt, render and tune at random moments, 500 each if nothing else
-                                 is said, and look at what they leave
+  kill [TIMES [SEED [PROGRAM]]]  kill build, fmt, render and tune at random moments, 500 each if nothing else
+                                 is said, and look at what they leave; PROGRAM is a built `umbrage`
   bench [ARGS]                   run the benchmarks; ARGS go to `cargo bench`
 ";
 
@@ -208,10 +208,16 @@ fn kill(steps: &mut Steps, arguments: &[String]) -> Result {
         }
     };
     let (times, seed) = (number(0, 500)?, number(1, 1)?);
-    steps.run("program", cargo(&["build", "--release"]))?;
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
-    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    kill::run(root, &target.join("release/umbrage"), times as usize, seed)
+    let program = match arguments.get(2) {
+        Some(program) => PathBuf::from(program),
+        None => {
+            steps.run("program", cargo(&["build", "--release"]))?;
+            let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
+            target.join("release/umbrage")
+        }
+    };
+    kill::run(root, &program, times as usize, seed)
 }
 
 /// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.

@@ -5,13 +5,14 @@
 //! journal is renamed, which is the moment that decides, and the files are renamed.
 //! Whoever comes next to the same directory finds what a process left that was killed:
 //! a journal that was begun, whose files it removes, or a complete one, whose files it
-//! renames. Only one process at a time does any of this: it holds a lock on the
+//! renames, except over a file that somebody has changed since. Only one process at a time does any of this: it holds a lock on the
 //! directory, which ends with the process.
 
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::UNIX_EPOCH;
 
 use super::pending::{PendingFile, directory};
 use super::{read_bytes, unwritable};
@@ -45,7 +46,7 @@ impl Home {
             home.forget(&home.begun())?;
         }
         if let Some(set) = Set::read(&home.complete())? {
-            set.publish()?;
+            set.resume()?;
             home.forget(&home.complete())?;
         }
         Ok(home)
@@ -93,6 +94,12 @@ impl Home {
     }
 }
 
+/// Brings to its end what was interrupted in a directory whose files are about to be read and replaced.
+#[cfg(feature = "cli")]
+pub(crate) fn settle(directory: &Path) -> Result<(), Failure> {
+    Home::lock(directory).map(drop)
+}
+
 /// Makes files visible, all or none, each beside the others or elsewhere.
 pub(crate) fn commit(files: Vec<PendingFile>) -> Result<(), Failure> {
     match files.iter().find_map(|file| file.target()).map(|target| directory(target).to_owned()) {
@@ -108,13 +115,23 @@ pub(crate) fn commit(files: Vec<PendingFile>) -> Result<(), Failure> {
 struct Set {
     number: String,
     targets: Vec<PathBuf>,
+    /// The state of each place before, as [`stamp`] tells it.
+    replaced: Vec<Vec<u8>>,
+}
+
+/// Tells the states of a file apart, without reading it: its size and the time of its last change; nothing for none.
+fn stamp(path: &Path) -> Vec<u8> {
+    let Ok(metadata) = fs::metadata(path) else { return Vec::new() };
+    let time = metadata.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();
+    format!("{} {}", metadata.len(), time.as_nanos()).into_bytes()
 }
 
 impl Set {
     fn new(targets: Vec<PathBuf>) -> Self {
         static NEXT: AtomicU64 = AtomicU64::new(0);
         let number = format!("{}-{}", std::process::id(), NEXT.fetch_add(1, Ordering::Relaxed));
-        Self { number, targets }
+        let replaced = targets.iter().map(|target| stamp(target)).collect();
+        Self { number, targets, replaced }
     }
 
     /// The set of a journal, if there is one.
@@ -128,14 +145,21 @@ impl Set {
         parts.next_back();
         let number = parts.next().map_or(String::new(), |number| String::from_utf8_lossy(number).into_owned());
         let digits = number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-');
-        Ok(Some(Self { number, targets: if digits { parts.map(to_path).collect() } else { Vec::new() } }))
+        let mut set = Self { number, targets: Vec::new(), replaced: Vec::new() };
+        while let (true, Some(target), Some(replaced)) = (digits, parts.next(), parts.next()) {
+            set.targets.push(to_path(target));
+            set.replaced.push(replaced.to_vec());
+        }
+        Ok(Some(set))
     }
 
     fn journal(&self) -> Vec<u8> {
         let mut bytes = self.number.clone().into_bytes();
-        for target in &self.targets {
-            bytes.push(0);
-            bytes.extend(to_bytes(target));
+        for (target, replaced) in self.targets.iter().zip(&self.replaced) {
+            for part in [&to_bytes(target), replaced] {
+                bytes.push(0);
+                bytes.extend(part);
+            }
         }
         bytes.push(0);
         bytes
@@ -152,6 +176,17 @@ impl Set {
     fn remove(&self) {
         // Those that were not reached are not there.
         self.staged().for_each(|staged| drop(fs::remove_file(staged)));
+    }
+
+    /// Puts the files into their places that another process did not get to. What was written there in the
+    /// meantime is newer, and stays.
+    fn resume(&self) -> Result<(), Failure> {
+        for ((staged, target), replaced) in self.staged().zip(&self.targets).zip(&self.replaced) {
+            if stamp(target) != *replaced {
+                drop(fs::remove_file(staged));
+            }
+        }
+        self.publish()
     }
 
     /// Puts all files into their places; those that are there already are passed over.
@@ -217,8 +252,9 @@ mod tests {
             let targets = [place.path().join("a"), place.path().join("b")];
             // A complete set whose first files are in their places already.
             let done = if journal == COMPLETE { 2 - made } else { 0 };
-            targets.iter().enumerate().for_each(|(at, target)| write(target, if at < done { "new" } else { "old" }));
+            targets.iter().for_each(|target| write(target, "old"));
             let set = Set::new(targets.to_vec());
+            targets.iter().take(done).for_each(|target| write(target, "new"));
             write(&place.path().join(journal), &String::from_utf8_lossy(&set.journal()));
             set.staged().skip(done).take(made).for_each(|staged| write(&staged, "new"));
             Home::lock(place.path()).unwrap_or_else(|error| panic!("{error}"));
@@ -229,6 +265,23 @@ mod tests {
         }
     }
 
+    /// An interrupted set comes to its end without replacing files that were written in the meantime.
+    #[test]
+    fn newer_files_stay() {
+        let place = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+        let write = |path: &Path, text: &str| fs::write(path, text).unwrap_or_else(|error| panic!("{error}"));
+        let targets = ["absent", "edited", "left"].map(|name| place.path().join(name));
+        targets[1..].iter().for_each(|target| write(target, "old"));
+        let set = Set::new(targets.to_vec());
+        write(&place.path().join(COMPLETE), &String::from_utf8_lossy(&set.journal()));
+        set.staged().for_each(|staged| write(&staged, "new"));
+        write(&targets[1], "by hand");
+        Home::lock(place.path()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(names(place.path()), ["absent", "edited", "left"]);
+        let texts = targets.map(|target| fs::read_to_string(target).unwrap_or_default());
+        assert_eq!(texts, ["new", "by hand", "new"]);
+    }
+
     /// A journal that is not ours moves and removes nothing.
     #[test]
     fn a_foreign_journal_does_no_harm() {
@@ -237,7 +290,7 @@ mod tests {
             fs::write(place.path().join(name), text).unwrap_or_else(|error| panic!("{error}"));
         };
         write("mine", "kept");
-        write(COMPLETE, &format!("../mine\0{}\0", place.path().join("mine").display()));
+        write(COMPLETE, &format!("../mine\0{}\0\0", place.path().join("mine").display()));
         write(BEGUN, "1-0\0cut off");
         Home::lock(place.path()).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(names(place.path()), ["mine"]);

@@ -15,6 +15,8 @@ use std::sync::Mutex;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
 
+#[cfg(feature = "cli")]
+pub(crate) use home::settle;
 pub(crate) use home::{Home, commit};
 pub(crate) use pending::PendingFile;
 
