@@ -149,39 +149,52 @@ impl<'t> Lowering<'t> {
         })
     }
 
-    pub(super) fn input(&mut self, input: &'t table::Input) -> Result<Input> {
+    /// The levels of an input, a set that it is the first to have or one that others have, too; none of a range.
+    fn set_of_input(&mut self, input: &'t table::Input) -> Result<Option<SetId>> {
+        if let Some(known) = self.own_sets.get(input.name.value.as_str()) {
+            return Ok(Some(*known));
+        }
         let span = input.domain.span;
-        let bad = |message: String| Diagnostic::error(codes::DOMAIN, message).at(span, "in this domain");
-        let (domain, set) = match &input.domain.value {
-            table::Domain::Levels(levels) => {
-                let levels = self.level_set(levels, span)?;
-                self.sets.push(levels.clone());
-                (Domain::Discrete(levels), Some(SetId(self.sets.len() - 1)))
-            }
-            table::Domain::LevelsOf(name) => {
-                let set = self.find_set(name)?;
-                (Domain::Discrete(self.sets[set.0].clone()), Some(set))
-            }
-            table::Domain::Bool => (Domain::Discrete(self.sets[SetId::BOOL.0].clone()), Some(SetId::BOOL)),
+        let levels = match &input.domain.value {
+            table::Domain::Levels(levels) => self.level_set(levels, span)?,
+            table::Domain::LevelsOf(name) => return self.find_set(name).map(Some),
+            table::Domain::Bool => return Ok(Some(SetId::BOOL)),
             table::Domain::Int(from, to) => {
                 let count = to.checked_sub(*from).and_then(|n| n.checked_add(1)).unwrap_or(0);
                 if !(2..=MAX_LEVELS as i64).contains(&count) || from.unsigned_abs().max(to.unsigned_abs()) > 1 << 24 {
-                    return Err(bad(format!("an integer input spans 2 to {MAX_LEVELS} values of at most 2^24")));
+                    let message = format!("an integer input spans 2 to {MAX_LEVELS} values of at most 2^24");
+                    return Err(Diagnostic::error(codes::DOMAIN, message).at(span, "in this domain"));
                 }
-                let levels = Levels {
+                Levels {
                     names: (*from..=*to).map(|i| i.to_string()).collect(),
                     codes: (*from..=*to).map(|i| i as f64).collect(),
                     kind: LevelKind::Int,
-                };
-                self.sets.push(levels.clone());
-                (Domain::Discrete(levels), Some(SetId(self.sets.len() - 1)))
-            }
-            table::Domain::Range(lo, hi, unit) => {
-                if !((*lo as f32).is_finite() && (*hi as f32).is_finite() && lo < hi) {
-                    return Err(bad("a range goes from a smaller to a larger finite number".to_owned()));
                 }
-                (Domain::Continuous { lo: *lo, hi: *hi, unit: unit.clone() }, None)
             }
+            table::Domain::Range(..) => return Ok(None),
+        };
+        self.sets.push(levels);
+        let set = SetId(self.sets.len() - 1);
+        self.own_sets.insert(&input.name.value, set);
+        Ok(Some(set))
+    }
+
+    pub(super) fn input(&mut self, input: &'t table::Input) -> Result<Input> {
+        let set = self.set_of_input(input)?;
+        let domain = match (set, &input.domain.value) {
+            (Some(set), _) => Domain::Discrete(self.sets[set.0].clone()),
+            (None, table::Domain::Range(lo, hi, unit)) => {
+                if !((*lo as f32).is_finite() && (*hi as f32).is_finite() && lo < hi) {
+                    let message = "a range goes from a smaller to a larger finite number";
+                    let error = Diagnostic::error(codes::DOMAIN, message);
+                    return Err(error.at(input.domain.span, "in this domain"));
+                }
+                Domain::Continuous { lo: *lo, hi: *hi, unit: unit.clone() }
+            }
+            (
+                None,
+                table::Domain::Levels(_) | table::Domain::LevelsOf(_) | table::Domain::Bool | table::Domain::Int(..),
+            ) => unreachable!("only a range has no levels"),
         };
         if let Some(cost) = &input.fetched
             && !(cost.value.is_finite() && cost.value >= 0.0)
@@ -205,13 +218,20 @@ impl<'t> Lowering<'t> {
         Ok(checked)
     }
 
-    pub(super) fn find_set(&self, name: &Spanned<String>) -> Result<SetId> {
+    pub(super) fn find_set(&mut self, name: &Spanned<String>) -> Result<SetId> {
         if let Some(set) = self.set_index.get(name.value.as_str()) {
             return Ok(*set);
         }
         if let Some(input) = self.input_index.get(name.value.as_str())
             && let Some(set) = self.input_sets[input.index()]
         {
+            return Ok(set);
+        }
+        // What the parameters of a function have the levels of need not be a parameter of it. All inputs of the
+        // table were declared before, so none stands further down or leads back here.
+        let table = self.table;
+        let elsewhere = table.inputs.iter().find(|input| self.of_function && input.name.value == name.value);
+        if let Some(set) = elsewhere.map_or(Ok(None), |input| self.set_of_input(input))? {
             return Ok(set);
         }
         let known = self.set_index.keys().chain(self.input_index.keys()).copied();

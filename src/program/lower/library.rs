@@ -119,6 +119,7 @@ fn one(table: &Table, function: &table::Function, errors: &mut Vec<Diagnostic>) 
             }
         }
     }
+    lowering.of_function = true;
     lowering.declare(&inputs, errors);
     // An exhibit states its accuracy for those who mend it; its sines are what they are.
     lowering.portable = function.accuracy.is_some() && table.exhibit.is_none();

@@ -67,6 +67,10 @@ struct Lowering<'t> {
     depth: u32,
     input_index: HashMap<&'t str, InputId>,
     set_index: HashMap<&'t str, SetId>,
+    /// The sets that inputs are the first to have, by their names.
+    own_sets: HashMap<&'t str, SetId>,
+    /// True if the inputs are those of a function, some of those of the table.
+    of_function: bool,
     case_index: HashMap<u32, usize>,
     output: Rc<table::Output<SetId>>,
 }
@@ -117,6 +121,8 @@ impl<'t> Lowering<'t> {
             depth: 0,
             input_index: HashMap::new(),
             set_index: HashMap::new(),
+            own_sets: HashMap::new(),
+            of_function: false,
             case_index: HashMap::new(),
             output: Rc::new(table::Output::Number(None)),
         };

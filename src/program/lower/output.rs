@@ -26,7 +26,7 @@ impl Lowering<'_> {
     }
 
     /// A level set that a result can be of. A condition has no levels in an expression.
-    fn find_named_set(&self, name: &Spanned<String>) -> Result<SetId> {
+    fn find_named_set(&mut self, name: &Spanned<String>) -> Result<SetId> {
         match self.find_set(name)? {
             SetId::BOOL => Err(Diagnostic::error(
                 codes::DOMAIN,
