@@ -3,30 +3,33 @@
 
 use super::sets::Set;
 use super::sets::space::Space;
-use super::values::point::Witness;
+use super::values::point::{Point, Witness};
+use crate::eval::Interpreter;
 use crate::program::normal::{Affine, Term};
 use crate::program::print::Printer;
 use crate::program::rational::Rational;
-use crate::program::{Domain, ExprId, InputSet, LevelSet, Node, Program, TernaryOp, Value};
+use crate::program::{Domain, ExprId, Input, InputId, InputSet, LevelSet, Node, Program, TernaryOp, Value};
 
 /// Inputs in the form that `explain --at` takes. Numbers and fetched inputs are
-/// left out unless they are among the `relevant` ones or have to be given. `None` if nothing
-/// is known of numbers that matter.
+/// left out unless they are among the `relevant` ones, or have to be given so that
+/// there is a result. `None` if nothing is known of numbers that matter.
 pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> Option<String> {
+    let relevant = relevant.or(asked_for(program, witness, relevant));
     let mut parts = Vec::new();
     for (id, input) in program.input_ids() {
+        let needed = relevant.contains(id) || (input.default.is_none() && input.fetched.is_none());
         let value = match &input.domain {
-            Domain::Discrete(_) => match (witness.levels[id.index()], input.fetched, input.default) {
-                (Some(level), fetched, _) if fetched.is_none() || relevant.contains(id) => Some(Value::Level(level)),
-                (None, None, None) => Some(Value::Level(0)),
-                _ => None,
+            Domain::Discrete(_) => match witness.levels[id.index()] {
+                Some(level) if needed || input.fetched.is_none() => Some(Value::Level(level)),
+                // Any will do.
+                None if needed => Some(input.default.unwrap_or(Value::Level(0))),
+                Some(_) | None => None,
             },
-            Domain::Continuous { .. } => {
-                let needed = relevant.contains(id) || (input.default.is_none() && input.fetched.is_none());
+            Domain::Continuous { lo, .. } => {
                 if needed && !witness.certain {
                     return None;
                 }
-                witness.numbers[id.index()].filter(|_| needed).map(Value::Number)
+                needed.then(|| Value::Number(witness.numbers[id.index()].unwrap_or(*lo)))
             }
         };
         match value {
@@ -37,6 +40,31 @@ pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> Op
         }
     }
     Some(if parts.is_empty() { "the defaults of all inputs".to_owned() } else { parts.join(",") })
+}
+
+/// The inputs without which `explain` would not come to the case and line that a point leads to: what is fetched on
+/// the way, and numbers, if with their defaults the way were another one.
+fn asked_for(program: &Program, witness: &Witness, relevant: InputSet) -> InputSet {
+    let Point { levels, numbers } = Point::of(program, witness);
+    let value = |(id, input): (InputId, &Input)| match input.domain {
+        Domain::Discrete(_) => Some(Value::Level(levels[id.index()])),
+        Domain::Continuous { .. } => Some(Value::Number(numbers[id.index()])),
+    };
+    let point: Vec<Option<Value>> = program.input_ids().map(value).collect();
+    let plain = |(id, input): (InputId, &Input)| match input.domain {
+        Domain::Continuous { .. } if !relevant.contains(id) => input.default.or(point[id.index()]),
+        Domain::Continuous { .. } | Domain::Discrete(_) => point[id.index()],
+    };
+    let plain: Vec<Option<Value>> = program.input_ids().map(plain).collect();
+    let mut interpreter = Interpreter::<f64>::new(program);
+    let mut way = |point: &[Option<Value>]| interpreter.evaluate(point).map(|o| (o.row, o.line, o.fetched)).ok();
+    let (here, there) = (way(&point), way(&plain));
+    let fetched = here.map_or(InputSet::default(), |(_, _, fetched)| fetched);
+    if here == there || !witness.certain {
+        return fetched;
+    }
+    let numbers = program.input_ids().filter(|(id, input)| input.fetched.is_none() && program.levels(*id).is_none());
+    numbers.fold(fetched, |all, (id, _)| all.or(InputSet::one(id)))
 }
 
 /// The inputs that a row mentions.

@@ -203,8 +203,7 @@ fn place_at(study: &Study<'_>, point: &Point, row: Option<usize>) -> String {
         None => program.default.iter().fold(Default::default(), |all: InputSet, v| all.or(pool.expr_facts(*v).inputs)),
         Some(row) => words::mentioned(program, row),
     };
-    let wanted: Vec<bool> = program.input_ids().map(|(id, i)| i.fetched.is_none() || read.contains(id)).collect();
-    words::at(program, &point.witness(program, &wanted), read).unwrap_or_default()
+    words::at(program, &point.witness(program, &vec![true; program.inputs.len()]), read).unwrap_or_default()
 }
 
 fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnostic> {

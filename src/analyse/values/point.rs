@@ -39,7 +39,11 @@ impl Point {
             _ => 0,
         };
         let levels = witness.levels.iter().enumerate().map(|(input, level)| level.unwrap_or_else(|| usual(input)));
-        let numbers = witness.numbers.iter().map(|number| number.unwrap_or_default());
+        let least = |input: usize| match program.inputs[input].default {
+            Some(Value::Number(number)) => number,
+            _ => program.inputs[input].least(),
+        };
+        let numbers = witness.numbers.iter().enumerate().map(|(input, number)| number.unwrap_or_else(|| least(input)));
         Self { levels: levels.collect(), numbers: numbers.collect() }
     }
 
