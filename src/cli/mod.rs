@@ -39,13 +39,19 @@ mod watch;
 mod why;
 
 use std::io;
+#[cfg(feature = "trial")]
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::Target;
+#[cfg(feature = "trial")]
+use crate::eval::Columns;
 use crate::plan::Shape;
+#[cfg(feature = "trial")]
+use crate::program::Program;
 use crate::show::Precision;
 use crate::text::file::{STDOUT, io_reason};
 use crate::text::reach;
@@ -231,6 +237,15 @@ pub fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Reads rows of inputs from a file as commands do: CSV, JSON or a capture.
+///
+/// # Errors
+/// With every mistake in them, each at its place.
+#[cfg(feature = "trial")]
+pub fn read_rows(program: &Program, path: &Path) -> std::result::Result<Columns<f32>, Failure> {
+    input::read_all(program, path)
 }
 
 /// Reads the name of a plan.

@@ -104,21 +104,51 @@ impl<'p> Precise<'p> {
         self.known.clear();
     }
 
+    /// The row that is taken at a point and the line of it that applies, over the reals.
+    ///
+    /// # Errors
+    /// With the first input that is needed but absent.
+    #[cfg(feature = "trial")]
+    pub fn way(&mut self, point: &[Option<Value>]) -> Result<(Option<usize>, Option<usize>), Unknown> {
+        self.place(point, None);
+        self.taken()
+    }
+
+    /// Returns whether a condition holds at a point, over the reals.
+    ///
+    /// # Errors
+    /// With the first input that is needed but absent.
+    #[cfg(feature = "trial")]
+    pub fn holds_at(&mut self, point: &[Option<Value>], condition: CondId) -> Result<bool, Unknown> {
+        self.place(point, None);
+        self.holds(condition)
+    }
+
     /// Follows [`super::Interpreter::evaluate`].
     fn evaluate(&mut self) -> Result<Vec<f64>, Unknown> {
         let program = self.program;
-        for row in &program.rows {
+        let values = match self.taken()? {
+            (Some(row), Some(line)) => &program.rows[row].lines[line].values,
+            (Some(_), None) | (None, _) => &program.default,
+        };
+        values.iter().map(|value| self.expression(*value)).collect()
+    }
+
+    /// The row that is taken and the line of it that applies.
+    fn taken(&mut self) -> Result<(Option<usize>, Option<usize>), Unknown> {
+        let program = self.program;
+        for (index, row) in program.rows.iter().enumerate() {
             if !self.holds(row.guard)? {
                 continue;
             }
-            for line in &row.lines {
+            for (number, line) in row.lines.iter().enumerate() {
                 if self.holds(line.condition)? {
-                    return line.values.iter().map(|value| self.expression(*value)).collect();
+                    return Ok((Some(index), Some(number)));
                 }
             }
-            break;
+            return Ok((Some(index), None));
         }
-        program.default.iter().map(|value| self.expression(*value)).collect()
+        Ok((None, None))
     }
 
     fn has_level(&self, input: InputId, levels: LevelSet) -> Result<bool, Unknown> {

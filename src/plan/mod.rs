@@ -19,6 +19,8 @@ mod setting;
 mod shapes;
 #[cfg(test)]
 mod tests;
+#[cfg(any(test, feature = "trial"))]
+pub mod walk;
 mod weights;
 
 use crate::diag::{Diagnostic, Failure, codes};

@@ -3,11 +3,12 @@
 
 mod mutations;
 
+use super::walk::{Walked, Walker};
 use super::*;
 use crate::diag::Source;
 use crate::eval::Interpreter;
 use crate::points::random::Random;
-use crate::program::{Domain, ExprId, InputId, InputSet, LevelTerm, Node, Real, Value};
+use crate::program::{Domain, Value};
 use crate::prove::is_unsuitable;
 use crate::table::Table;
 
@@ -92,127 +93,6 @@ fn program(text: &str) -> Program {
     Program::check(&table).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// Carries out a plan, one step after the other, in `f32`.
-struct Executor<'a, 'p> {
-    plan: &'a Plan<'p>,
-    /// The program with the terms of the plan.
-    program: Program,
-}
-
-impl<'a, 'p> Executor<'a, 'p> {
-    fn new(plan: &'a Plan<'p>) -> Self {
-        let mut program = plan.program.clone();
-        program.pool = plan.pool.clone();
-        Self { plan, program }
-    }
-
-    /// The row, the values, and what was fetched, in the terms of the plan.
-    fn run(&self, point: &[Option<Value>]) -> (Option<usize>, Vec<f32>, InputSet) {
-        let plan = self.plan;
-        let level = |point: &[Option<Value>], input: InputId| match point[input.index()] {
-            Some(Value::Level(level)) => level,
-            _ => 0,
-        };
-        let state = plan.program.states.index(|input| level(point, input));
-        let entry = plan.lookup.get(state).map_or(0, |entry| usize::from(*entry));
-        let mut point = point.to_vec();
-        let mut results = Vec::new();
-        let mut fetched = InputSet::default();
-        let mut at = plan.root();
-        loop {
-            let mut interpreter = Interpreter::<f32>::new(&self.program);
-            interpreter.place(&point).expect("all inputs are given");
-            match plan.step(at) {
-                Step::Switch { arms } => at = arms[entry],
-                Step::Coefficients { rest } => match plan.coefficients.fits.get(entry) {
-                    Some(fit) => {
-                        let mut with_value = self.program.clone();
-                        let pieces = fit.pieces.iter();
-                        let values: Vec<ExprId> =
-                            pieces.map(|piece| plan.coefficients.value(&mut with_value.pool, piece)).collect();
-                        let mut interpreter = Interpreter::<f32>::new(&with_value);
-                        interpreter.place(&point).expect("all inputs are given");
-                        let values = values.iter().map(|v| interpreter.number(*v).expect("given")).collect();
-                        return (fit.row, values, fetched);
-                    }
-                    None => at = rest[entry - plan.coefficients.fits.len()],
-                },
-                Step::Orbit { arms } => {
-                    for (_, index) in plan.symmetries.iter().enumerate().filter(|(bit, _)| entry >> bit & 1 == 1) {
-                        let symmetry = &self.program.symmetries[*index];
-                        let mut interpreter = Interpreter::<f32>::new(&self.program);
-                        interpreter.place(&point).expect("all inputs are given");
-                        let mut next = point.clone();
-                        for (input, image) in &symmetry.levels {
-                            next[input.index()] = Some(Value::Level(self.image(image, &mut interpreter, &point)));
-                        }
-                        for (input, image) in &symmetry.numbers {
-                            let number = interpreter.number(*image).expect("given");
-                            next[input.index()] = Some(Value::Number(f64::from(number)));
-                        }
-                        point = next;
-                        results.splice(0..0, symmetry.result);
-                    }
-                    at = arms[entry >> plan.symmetries.len()];
-                }
-                Step::Test { condition, then, other } => {
-                    at = if interpreter.holds(*condition).expect("given") { *then } else { *other };
-                }
-                Step::Fetch { input, next } => {
-                    assert!(!fetched.contains(*input), "fetched twice");
-                    fetched = fetched.or(InputSet::one(*input));
-                    at = *next;
-                }
-                Step::Gather { input, condition, next } => {
-                    if interpreter.holds(*condition).expect("given") {
-                        assert!(!fetched.contains(*input), "fetched twice");
-                        fetched = fetched.or(InputSet::one(*input));
-                    } else {
-                        let declared = &plan.program.inputs[input.index()];
-                        point[input.index()] = Some(match declared.domain {
-                            Domain::Discrete(_) => Value::Level(0),
-                            Domain::Continuous { lo, .. } => Value::Number(lo),
-                        });
-                    }
-                    at = *next;
-                }
-                Step::Leaf(leaf) => {
-                    let values = leaf.values.iter().map(|value| {
-                        let value = interpreter.number(*value).expect("given");
-                        results.iter().fold(value, |value, map| self.result(*map, value))
-                    });
-                    return (leaf.row, values.collect(), fetched);
-                }
-            }
-        }
-    }
-
-    fn image(&self, term: &LevelTerm, interpreter: &mut Interpreter<'_, f32>, point: &[Option<Value>]) -> u8 {
-        match term {
-            LevelTerm::Const(level) => *level,
-            LevelTerm::Input(input) => match point[input.index()] {
-                Some(Value::Level(level)) => level,
-                _ => 0,
-            },
-            LevelTerm::If(condition, then, other) => match interpreter.holds(*condition).expect("given") {
-                true => self.image(then, interpreter, point),
-                false => self.image(other, interpreter, point),
-            },
-            LevelTerm::Map(inner, renaming) => renaming[usize::from(self.image(inner, interpreter, point))],
-        }
-    }
-
-    /// The result map of a symmetry.
-    fn result(&self, map: ExprId, value: f32) -> f32 {
-        match self.program.pool.node(map) {
-            Node::Const(number) => number.get() as f32,
-            Node::Result => value,
-            Node::Binary(op, a, b) => f32::binary(op, self.result(a, value), self.result(b, value)),
-            other @ (Node::Input(_) | Node::Unary(..) | Node::Ternary(..) | Node::Select(..)) => panic!("{other:?}"),
-        }
-    }
-}
-
 fn point(random: &mut Random, program: &Program, state: usize) -> Vec<Option<Value>> {
     let mut levels = vec![0; program.inputs.len()];
     program.states.write(state, &mut levels);
@@ -249,7 +129,7 @@ fn every_plan_of_random_tables_is_proved_and_right() {
             };
             planned[number] += 1;
             let plan = proved.plan();
-            let executor = Executor::new(plan);
+            let walker = Walker::new(plan);
             let mut interpreter = Interpreter::<f32>::new(&program);
             for point in &points {
                 interpreter.place(point).unwrap_or_else(|e| panic!("{e:?}"));
@@ -261,10 +141,10 @@ fn every_plan_of_random_tables_is_proved_and_right() {
                     continue;
                 }
                 let want = interpreter.evaluate(point).unwrap_or_else(|e| panic!("{e:?}"));
-                let (row, values, fetched) = executor.run(point);
+                let Walked { row, values, fetched, repeated, .. } = walker.run(point).expect("all inputs are given");
                 let at = format!("{shape} at {point:?}\n{text}");
                 assert!(!plan.reports_case() || row == want.row, "{row:?}, not {:?}: {at}", want.row);
-                assert!(fetched.minus(want.fetched).is_empty(), "{at}");
+                assert!(repeated.is_none() && fetched.minus(want.fetched).is_empty(), "{at}");
                 let same = proved.proof().identical == proved.proof().paths;
                 let slack = if same { 0.0 } else { 1e-5 };
                 assert!((values[0] - want.values[0]).abs() <= slack, "{values:?}, not {:?}: {at}", want.values);
@@ -326,12 +206,12 @@ fn many_guards_may_fetch() {
 
 /// At a point of each state a plan gives what the interpreter gives, and takes its case.
 pub(super) fn agrees(plan: &Plan<'_>, random: &mut Random) {
-    let executor = Executor::new(plan);
+    let walker = Walker::new(plan);
     let mut interpreter = Interpreter::<f32>::new(plan.program);
     for state in 0..plan.program.states.count() {
         let point = point(random, plan.program, state);
         let want = interpreter.evaluate(&point).unwrap_or_else(|e| panic!("{e:?}"));
-        let (row, values, _) = executor.run(&point);
+        let Walked { row, values, .. } = walker.run(&point).expect("all inputs are given");
         assert!(!plan.reports_case() || row == want.row, "{} at {point:?}", plan.shape);
         let near = values.iter().zip(&want.values).all(|(a, b)| (a - b).abs() <= 1e-5);
         assert!(near, "{} at {point:?}: {values:?}, not {:?}", plan.shape, want.values);

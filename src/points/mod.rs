@@ -2,8 +2,8 @@
 
 use crate::program::Value;
 
-#[cfg(feature = "gpu")]
-pub(crate) mod comparison;
+#[cfg(any(feature = "gpu", feature = "trial"))]
+pub mod comparison;
 pub mod random;
 mod sample;
 
