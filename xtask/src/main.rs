@@ -26,6 +26,9 @@ Usage: cargo xtask <task> [arguments]
   errata                         write docs/errata.md: what the analyses find in tables as printed
   kill [TIMES [SEED [PROGRAM]]]  kill build, fmt, render and tune at random moments, 500 each if nothing else
                                  is said, and look at what they leave; PROGRAM is a built `umbrage`
+  fuzz [--minutes N] [--seed S] [TARGET...]
+                                 try random tables and files made wrong, on all cores; `fuzz --help`
+                                 says more
   bench [ARGS]                   run the benchmarks; ARGS go to `cargo bench`
 ";
 
@@ -47,6 +50,7 @@ fn main() -> ExitCode {
         "bless" => bless(&mut steps),
         "errata" => errata(&mut steps),
         "kill" => kill(&mut steps, rest),
+        "fuzz" => fuzz(&mut steps, rest),
         "bench" => bench(&mut steps, rest),
         "help" | "--help" | "-h" => {
             print!("{USAGE}");
@@ -218,6 +222,17 @@ fn kill(steps: &mut Steps, arguments: &[String]) -> Result {
         }
     };
     kill::run(root, &program, times as usize, seed)
+}
+
+/// Random tables and files made wrong. What overflows, or was thought impossible, ends a process there.
+fn fuzz(steps: &mut Steps, arguments: &[String]) -> Result {
+    let mut command = cargo(&["run", "--quiet", "--profile", "fuzz", "--package", "umbrage-fuzz", "--"]);
+    if let Ok(directory) = env::current_dir() {
+        // Paths among the arguments are those of whoever gave them.
+        command.current_dir(directory);
+    }
+    command.args(arguments);
+    steps.run("fuzz", command)
 }
 
 /// The benchmarks: all of them optimised, and compilation also as a build script gets it, without optimisation.
