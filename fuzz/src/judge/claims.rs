@@ -210,7 +210,7 @@ impl Claims<'_, '_, '_> {
         let Some(point) = self.place(finding, "for instance at ") else { return };
         let row = self.rows_of(&finding.message).first().copied();
         let ways = self.ways(&point);
-        if !ways.iter().any(|way| *way == (row, None)) {
+        if !ways.contains(&(row, None)) {
             self.false_claim(finding, format!("there a case and line are taken: {ways:?}"));
         }
     }

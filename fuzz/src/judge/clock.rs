@@ -77,7 +77,10 @@ pub(crate) fn catch_panics() {
                 .map_or(file, |(_, rest)| rest.split_once('/').map_or(rest, |(_, rest)| rest));
             format!("{}:{}", file.trim_start_matches("../"), at.line())
         });
-        let message = info.payload_as_str().unwrap_or("no message").to_owned();
+        let payload = info.payload();
+        let text = payload.downcast_ref::<&str>().copied();
+        let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+        let message = text.unwrap_or("no message").to_owned();
         if let Ok(mut last) = PANIC.lock() {
             *last = (place, message);
         }

@@ -134,8 +134,8 @@ fn parts(bytes: &[u8]) -> Vec<(usize, usize)> {
 /// The items of a list with the comma behind each.
 fn items(bytes: &[u8], from: usize, to: usize) -> Vec<(usize, usize)> {
     let (mut items, mut start, mut depth, mut quoted) = (Vec::new(), from, 0_i32, false);
-    for place in from..to {
-        match bytes[place] {
+    for (place, byte) in bytes.iter().enumerate().take(to).skip(from) {
+        match byte {
             b'"' => quoted = !quoted,
             b'(' | b'[' | b'{' if !quoted => depth += 1,
             b')' | b']' | b'}' if !quoted => depth -= 1,

@@ -77,7 +77,9 @@ fn written(program: &Program, values: &[f64]) -> Option<String> {
             let parts: Vec<String> = parts.iter().map(|value| plain(*value)).collect();
             Some(format!("\"vec{}({})\"", parts.len(), parts.join(", ")))
         }
-        Reading::List(items) => Some(format!("\"[{}]\"", items.iter().map(item).collect::<Option<Vec<_>>>()?.join(", "))),
+        Reading::List(items) => {
+            Some(format!("\"[{}]\"", items.iter().map(item).collect::<Option<Vec<_>>>()?.join(", ")))
+        }
         Reading::Record(_) => None,
         one @ (Reading::Number(_) | Reading::Level(..)) => Some(format!("\"{}\"", item(&one)?)),
     }
