@@ -14,5 +14,7 @@ fn run(arguments: &str) {
 /// The seed is always the same, so that what fails here fails everywhere.
 #[test]
 fn a_few_files_of_each_format_are_without_faults() {
-    run("--cases 600 --seed 1 --no-shrink --faults faults csv json captures profiles tuned scenes obj gltf glb commands");
+    run(
+        "--cases 600 --seed 1 --no-shrink --faults faults csv json captures profiles tuned scenes obj gltf glb commands",
+    );
 }
