@@ -12,6 +12,7 @@ use crate::analyse::{self, LintLevels};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::profile;
 use crate::program::Program;
+use crate::prove::is_unsuitable;
 use crate::skeleton;
 use crate::table::Table;
 use crate::text::file::shown;
@@ -114,6 +115,16 @@ pub fn run(request: &Request) -> Batch {
     })
 }
 
+/// Warnings of the plans that were left out as not equal to the table. The others are none the worse.
+fn refused(built: &Built) -> impl Iterator<Item = Failure> {
+    let refused = built.skipped.iter().filter(|(_, reason)| !is_unsuitable(reason));
+    refused.map(|(_, reason)| {
+        let mut warning = reason.clone();
+        warning.diagnostics.iter_mut().for_each(|found| found.severity = Severity::Warning);
+        warning
+    })
+}
+
 /// The file of a skeleton.
 fn skeleton_of(name: &str) -> Result<Artifact, Failure> {
     let text = skeleton::wgsl(name).ok_or_else(|| {
@@ -162,6 +173,7 @@ fn collect(request: &Request) -> Batch {
             read_imports(&table, &mut batch);
             let built = one(&table, &evidence, &mut options, &request.levels, &mut batch);
             let built = batch.keep(built);
+            batch.messages.extend(built.iter().flat_map(|(_, built)| refused(built)));
             batch.tables.extend(built);
         }
     }

@@ -17,7 +17,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::{self, SiblingFile, Target};
 use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::Program;
-use crate::prove::{Proof, is_unsuitable};
+use crate::prove::{Proof, is_of_one_plan};
 use crate::text::file::{Home, PendingFile, io_reason, read_bytes, shown, unwritable};
 use crate::tuned::{Auto, Tuned};
 
@@ -180,7 +180,7 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
         });
         let proved = match proved {
             Ok(proved) => proved,
-            Err(reason) if is_unsuitable(&reason) => {
+            Err(reason) if is_of_one_plan(&reason) => {
                 built.skipped.push((name, reason));
                 continue;
             }

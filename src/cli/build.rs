@@ -12,6 +12,7 @@ use crate::build::{self, Built, Options, Request};
 use crate::cli::output::stdout;
 use crate::emit::Target;
 use crate::program::Program;
+use crate::prove::is_unsuitable;
 
 /// Arguments of `umbrage build`.
 #[derive(clap::Args)]
@@ -146,7 +147,10 @@ fn summary(
             writeln!(out, "  {:<14} proved {}{chosen}", plan.name, plan.proof)?;
         }
         for (name, reason) in &built.skipped {
-            let why = reason.diagnostics.iter().flat_map(|d| &d.notes).next().map_or("", String::as_str);
+            let why = match is_unsuitable(reason) {
+                true => reason.diagnostics.iter().flat_map(|d| &d.notes).next().map_or("", String::as_str),
+                false => "it is not equal to the table, which is a bug of the planner",
+            };
             writeln!(out, "  {:<14} left out: {why}", name)?;
         }
     }

@@ -122,7 +122,10 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         };
         bar.finish_and_clear();
         let result = result?;
-        if result.offending() > 0 {
+        for failure in &result.refused {
+            report.failure(failure);
+        }
+        if result.offending() > 0 || !result.refused.is_empty() {
             outcome = Outcome::Findings;
         }
         match report.format {

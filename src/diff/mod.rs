@@ -23,7 +23,7 @@ use crate::gpu::{Gpu, Kernel, Language, Outputs};
 use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::reachable;
 use crate::program::{Domain, Program};
-use crate::prove::{Proved, is_unsuitable};
+use crate::prove::{Proved, is_of_one_plan, is_unsuitable};
 use crate::show::{Precision, sentence};
 
 pub use crate::points::Point;
@@ -64,6 +64,8 @@ pub struct Report {
     pub points: usize,
     /// One per plan, entry point and language.
     pub runs: Vec<Run>,
+    /// The plans that were refused as not equal to the table, which would be a bug of the planner.
+    pub refused: Vec<Failure>,
 }
 
 /// One executor against the interpreter.
@@ -123,7 +125,9 @@ impl Report {
 /// # Ok::<(), umbrage::diag::Failure>(())
 /// ```
 pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnMut(usize)) -> Result<Report, Failure> {
-    plans(program, &suitable(program, options)?, gpu, options.effort, progress)
+    let (proved, refused) = suitable(program, options)?;
+    let report = plans(program, &proved, gpu, options.effort, progress)?;
+    Ok(Report { refused, ..report })
 }
 
 /// Compares plans of a program on a device with the interpreter at given points,
@@ -132,12 +136,12 @@ pub fn table(program: &Program, gpu: &Gpu, options: &Options, progress: impl FnM
 /// # Errors
 /// When a plan cannot be proved, an input is missing, or the device fails.
 pub fn frames(program: &Program, gpu: &Gpu, options: &Options, frames: &[Columns<f32>]) -> Result<Report, Failure> {
-    let proved = suitable(program, options)?;
+    let (proved, refused) = suitable(program, options)?;
     let mut comparison = Comparison::new(program, &proved, gpu)?;
     for columns in frames {
         comparison.points(columns)?;
     }
-    Ok(comparison.report)
+    Ok(Report { refused, ..comparison.report })
 }
 
 /// Compares the WGSL of proved plans with the interpreter at given points: one run per plan.
@@ -150,9 +154,9 @@ pub fn at(program: &Program, proved: &[Proved<'_>], gpu: &Gpu, columns: &Columns
     Ok(comparison.report.runs)
 }
 
-/// The plans that suit a table, proved; at least one.
-fn suitable<'p>(program: &'p Program, options: &Options) -> Result<Vec<Proved<'p>>, Failure> {
-    let mut proved = Vec::new();
+/// The plans that suit a table, proved, at least one; and those that were refused.
+fn suitable<'p>(program: &'p Program, options: &Options) -> Result<(Vec<Proved<'p>>, Vec<Failure>), Failure> {
+    let (mut proved, mut refused) = (Vec::new(), Vec::new());
     let mut unsuitable = None;
     for shape in &options.shapes {
         // The ladder is the order as written, whatever occurs.
@@ -161,12 +165,13 @@ fn suitable<'p>(program: &'p Program, options: &Options) -> Result<Vec<Proved<'p
         match Plan::proved(program, options) {
             Ok(plan) => proved.push(plan),
             Err(failure) if is_unsuitable(&failure) => unsuitable = unsuitable.or(Some(failure)),
+            Err(failure) if is_of_one_plan(&failure) => refused.push(failure),
             Err(failure) => return Err(failure),
         }
     }
-    match unsuitable {
+    match refused.first().cloned().or(unsuitable) {
         Some(failure) if proved.is_empty() => Err(failure),
-        _ => Ok(proved),
+        _ => Ok((proved, refused)),
     }
 }
 
@@ -255,7 +260,7 @@ impl<'a, 'p> Comparison<'a, 'p> {
                 intervals: IntervalInterpreter::new(program),
                 interpreter: Interpreter::new(program),
             },
-            report: Report { table: program.name.clone(), states: None, points: 0, runs },
+            report: Report { table: program.name.clone(), states: None, points: 0, runs, refused: Vec::new() },
         })
     }
 

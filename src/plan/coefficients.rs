@@ -1,6 +1,6 @@
 //! The sums that [`Step::Coefficients`](super::Step::Coefficients) computes, and what they mean.
 
-use crate::program::{BinaryOp, ExprId, InputId, Pool, TernaryOp};
+use crate::program::{BinaryOp, ExprId, InputId, Node, Pool, TernaryOp};
 
 /// The coefficients of a plan.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -52,22 +52,22 @@ impl Coefficients {
             let mut sum = pool.number(form.constant);
             for (input, factor) in self.inputs.iter().zip(&form.factors) {
                 let (factor, input) = (pool.number(*factor), pool.input(*input));
-                let product = pool.binary(BinaryOp::Multiply, factor, input);
-                sum = pool.binary(BinaryOp::Add, sum, product);
+                let product = pool.settle(Node::Binary(BinaryOp::Multiply, factor, input));
+                sum = pool.settle(Node::Binary(BinaryOp::Add, sum, product));
             }
             least = Some(match least {
                 None => sum,
-                Some(least) => pool.binary(BinaryOp::Min, least, sum),
+                Some(least) => pool.settle(Node::Binary(BinaryOp::Min, least, sum)),
             });
         }
         let sign = pool.number(piece.sign);
         let least = least.unwrap_or(sign);
-        let value = pool.binary(BinaryOp::Multiply, sign, least);
+        let value = pool.settle(Node::Binary(BinaryOp::Multiply, sign, least));
         match self.clamp {
             None => value,
             Some((lo, hi)) => {
                 let (lo, hi) = (pool.number(lo), pool.number(hi));
-                pool.ternary(TernaryOp::Clamp, value, lo, hi)
+                pool.settle(Node::Ternary(TernaryOp::Clamp, value, lo, hi))
             }
         }
     }

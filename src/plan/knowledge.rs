@@ -107,7 +107,7 @@ impl Knowledge {
 
     /// An expression, with everything known put in. Only selections are
     /// resolved; arithmetic stays as it is, so that rounding does. What becomes
-    /// constant is folded if the result is bit-identical; otherwise it is computed when the
+    /// constant is folded if nobody can tell; otherwise it is computed when the
     /// shader runs: `1 / f32(n)` with `n` known to be 0 would be a constant that
     /// shading languages refuse.
     pub(super) fn expr(&self, pool: &mut Pool, expr: ExprId) -> ExprId {
@@ -122,7 +122,7 @@ impl Knowledge {
             Node::Const(_) | Node::Input(_) | Node::Result => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.expr_memo(pool, part, memo));
-                pool.rebuild(node)
+                pool.settle(node)
             }
             Node::Select(c, a, b) => {
                 let c = self.cond(pool, c);

@@ -1,6 +1,7 @@
 //! Random tables × all plans: what is planned is proved, what is proved gives
 //! what the interpreter gives, and what is changed afterwards is refused.
 
+mod extremes;
 mod mutations;
 
 use super::walk::{Walked, Walker};

@@ -31,6 +31,7 @@ pub mod print;
 pub(crate) mod rational;
 mod reachable;
 pub(crate) mod region;
+mod settle;
 pub(crate) mod symbolic;
 pub(crate) mod turn;
 mod visit;
@@ -220,18 +221,27 @@ pub struct Assumption {
     pub span: Span,
 }
 
-/// A map of the inputs and of the result.
+/// A map `m` of the inputs and a map `R` of the result. A program whose result at `x` is `V(x)` has the
+/// symmetry at `x` if
+///
+/// ```text
+/// V(x) = R(V(m(x)))
+/// ```
+///
+/// that is, if the result there is the mapped result at the image. A derived case is made so; analyses,
+/// plans and proofs ask for just this. `m` applied twice need not be the identity, and `R` need have no
+/// inverse, so the equation has one direction.
 #[derive(Debug, Clone)]
 pub struct Symmetry {
     /// Its name.
     pub name: String,
     /// Its description.
     pub doc: String,
-    /// Discrete inputs that change, with their new levels.
+    /// Discrete inputs that change, with their levels in the image.
     pub levels: Vec<(InputId, LevelTerm)>,
-    /// Continuous inputs that change, with their new values.
+    /// Continuous inputs that change, with their values in the image.
     pub numbers: Vec<(InputId, ExprId)>,
-    /// The result in terms of [`Node::Result`], if it changes.
+    /// The result in terms of that at the image, [`Node::Result`], if they differ.
     pub result: Option<ExprId>,
     /// The place of its declaration.
     pub span: Span,

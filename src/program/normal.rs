@@ -6,6 +6,7 @@
 //! the free distributive law makes the form unique up to order; everything
 //! that is not affine, minimum or maximum is an opaque term over normal forms.
 
+use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
 
 use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
@@ -232,9 +233,29 @@ impl Affine {
         Some(Affine { terms: terms.collect::<Option<_>>()?, constant: self.constant.times(factor)? })
     }
 
-    /// Returns whether this is at least `other` everywhere: same terms, no smaller constant.
+    /// Returns whether this is at least `other` everywhere: they differ by a number that is not negative.
     fn dominates(&self, other: &Affine) -> bool {
-        self.terms == other.terms && self.constant >= other.constant
+        if self.terms == other.terms {
+            return self.constant >= other.constant;
+        }
+        let extreme = |form: &Affine| form.terms.keys().any(|term| matches!(term, Term::Constant(_)));
+        (extreme(self) || extreme(other))
+            && other.times(-Rational::ONE).and_then(|other| self.plus(&other)?.order()) == Some(Ordering::Greater)
+    }
+
+    /// The order of the form and zero, if it is a number that tells: one that has no exact fraction here
+    /// is known to fifteen digits.
+    pub(crate) fn order(&self) -> Option<Ordering> {
+        if self.terms.is_empty() {
+            return Some(self.constant.cmp(&Rational::ZERO));
+        }
+        let (mut sum, mut size) = (self.constant.to_f64(), self.constant.to_f64().abs());
+        for (term, factor) in &self.terms {
+            let Term::Constant(bits) = term else { return None };
+            let summand = factor.to_f64() * f64::from_bits(*bits);
+            (sum, size) = (sum + summand, size + summand.abs());
+        }
+        (size.is_finite() && sum.abs() > 1e-9 * size).then(|| sum.total_cmp(&0.0))
     }
 }
 
@@ -334,6 +355,23 @@ mod tests {
             let a = self.normaliser.normal(&self.pool, a).expect("small");
             a == self.normaliser.normal(&self.pool, b).expect("small")
         }
+    }
+
+    /// Numbers far beyond fractions of 127 bits, and the limits that are made of them.
+    #[test]
+    fn extreme_constants_have_an_order() {
+        let mut f = Forms { pool: Pool::default(), normaliser: Normaliser::default() };
+        let p = &mut f.pool;
+        let (x, half, tiny) = (p.input(InputId::new(0)), p.number(0.5), p.number(1e-40));
+        let (lo, hi) = (p.number(-1e30), p.number(1e30));
+        let zero = p.number(0.0);
+        let nothing = p.binary(BinaryOp::Multiply, zero, x);
+        let sum = p.binary(BinaryOp::Add, half, nothing);
+        let clamped = p.ternary(TernaryOp::Clamp, sum, lo, hi);
+        let above = p.binary(BinaryOp::Max, sum, tiny);
+        let limited = p.ternary(TernaryOp::Clamp, x, lo, hi);
+        assert!(f.equal(clamped, half) && f.equal(above, half));
+        assert!(!f.equal(limited, x) && !f.equal(above, tiny));
     }
 
     #[test]

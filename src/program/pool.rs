@@ -273,7 +273,7 @@ impl Pool {
         Some(*value)
     }
 
-    fn intern(&mut self, node: Node) -> ExprId {
+    pub(super) fn intern(&mut self, node: Node) -> ExprId {
         if let Some(id) = self.expr_index.get(&node) {
             return *id;
         }
@@ -346,7 +346,7 @@ impl Pool {
         }
     }
 
-    /// An operation whose operands became known later: folded if [`Pool::folds`] says so, else left as it is.
+    /// An operation whose operands a call made known: folded if [`Pool::folds`] says so, else left as it is.
     pub fn rebuild(&mut self, node: Node) -> ExprId {
         if self.folds(node) { self.fold(node) } else { self.intern(node) }
     }

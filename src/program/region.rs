@@ -6,6 +6,7 @@
 //! inputs, a square root) is a variable of its own that could be anything: an
 //! answer "cannot hold" is always right, "can hold" is then not certain.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::normal::{Affine, Term};
@@ -26,13 +27,12 @@ pub(crate) enum Sign {
 impl Sign {
     pub(crate) const ALL: [Sign; 3] = [Sign::Positive, Sign::Zero, Sign::Negative];
 
-    pub(crate) fn of(number: Rational) -> Self {
-        if number.is_zero() {
-            Sign::Zero
-        } else if number.is_positive() {
-            Sign::Positive
-        } else {
-            Sign::Negative
+    /// The sign of what has this order to zero.
+    pub(crate) fn of(order: Ordering) -> Self {
+        match order {
+            Ordering::Greater => Sign::Positive,
+            Ordering::Equal => Sign::Zero,
+            Ordering::Less => Sign::Negative,
         }
     }
 

@@ -69,6 +69,8 @@ pub(crate) struct Machine<'p> {
     levels: Vec<u8>,
     /// Inputs that were fetched.
     fetched: InputSet,
+    /// The numbers that conditions compared.
+    compared: Vec<(ExprId, ExprId)>,
     /// Fetched inputs that are not there, so that code finds the first level or the least number.
     absent: InputSet,
     choices: Vec<Choice>,
@@ -104,6 +106,7 @@ impl<'p> Machine<'p> {
             conditions: pool,
             pool: pool.clone(),
             fetched: InputSet::default(),
+            compared: Vec::new(),
             absent: InputSet::default(),
             normaliser: Normaliser::default(),
             levels: vec![0; program.inputs.len()],
@@ -123,6 +126,7 @@ impl<'p> Machine<'p> {
         self.choices.clear();
         self.gave_up = false;
         for _ in 0..MAX_PATHS {
+            self.compared.clear();
             if path(self).is_break() {
                 return true;
             }
@@ -137,6 +141,11 @@ impl<'p> Machine<'p> {
     /// The inputs that were fetched since the last call.
     pub(crate) fn take_fetched(&mut self) -> InputSet {
         std::mem::take(&mut self.fetched)
+    }
+
+    /// The numbers that conditions compared since the last call. They were taken for real ones.
+    pub(crate) fn take_compared(&mut self) -> Vec<(ExprId, ExprId)> {
+        std::mem::take(&mut self.compared)
     }
 
     /// Lets inputs be absent from here on, on this path or until told otherwise.
@@ -214,6 +223,7 @@ impl<'p> Machine<'p> {
             Cond::Level(input, levels) => levels.contains(self.level(*input, view)),
             Cond::Compare(op, a, b) => {
                 let (a, b) = (self.resolve(*a, view), self.resolve(*b, view));
+                self.compared.push((a, b));
                 self.compare(*op, a, b)
             }
             Cond::Not(a) => !self.holds(*a, view),
@@ -240,7 +250,7 @@ impl<'p> Machine<'p> {
     /// The sign of `b - a` on this path; `None` if the difference has no affine form.
     fn sign(&mut self, a: ExprId, b: ExprId) -> Option<Sign> {
         let (a, b) = (self.flatten(a), self.flatten(b));
-        let difference = self.pool.binary(BinaryOp::Subtract, b, a);
+        let difference = self.pool.settle(Node::Binary(BinaryOp::Subtract, b, a));
         let (number, negative) = match self.difference(difference)? {
             Difference::Constant(sign) => return Some(sign),
             Difference::Form { number, negative } => (number, negative),
@@ -263,9 +273,10 @@ impl<'p> Machine<'p> {
             return *known;
         }
         let difference = self.normaliser.affine(&self.pool, expr).and_then(|form| {
-            let Some(leading) = form.terms.values().next().copied() else {
-                return Some(Difference::Constant(Sign::of(form.constant)));
-            };
+            if let Some(order) = form.order() {
+                return Some(Difference::Constant(Sign::of(order)));
+            }
+            let leading = form.terms.values().next().copied()?;
             let form = form.times(leading.reciprocal()?)?;
             let number = *self.form_index.entry(form).or_insert_with_key(|form| {
                 self.forms.push(form.clone());
@@ -336,7 +347,7 @@ impl<'p> Machine<'p> {
             }
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.resolve_memo(part, view, memo));
-                self.pool.fold(node)
+                self.pool.settle(node)
             }
             Node::Select(c, a, b) => {
                 let chosen = if self.holds(c, view) { a } else { b };
@@ -356,7 +367,7 @@ impl<'p> Machine<'p> {
                 let zero = self.pool.number(0.0);
                 match op.row().algebra {
                     UnaryAlgebra::Absolute => {
-                        let negated = self.pool.unary(UnaryOp::Negate, a);
+                        let negated = self.pool.settle(Node::Unary(UnaryOp::Negate, a));
                         self.larger(a, negated)
                     }
                     UnaryAlgebra::Saturate => {
@@ -364,7 +375,7 @@ impl<'p> Machine<'p> {
                         let raised = self.larger(a, zero);
                         self.smaller(raised, one)
                     }
-                    UnaryAlgebra::Negate | UnaryAlgebra::Opaque => self.pool.unary(op, a),
+                    UnaryAlgebra::Negate | UnaryAlgebra::Opaque => self.pool.settle(Node::Unary(op, a)),
                 }
             }
             Node::Binary(op, a, b) => {
@@ -376,7 +387,7 @@ impl<'p> Machine<'p> {
                     | BinaryAlgebra::Difference
                     | BinaryAlgebra::Product
                     | BinaryAlgebra::Quotient
-                    | BinaryAlgebra::Opaque => self.pool.binary(op, a, b),
+                    | BinaryAlgebra::Opaque => self.pool.settle(Node::Binary(op, a, b)),
                 }
             }
             Node::Ternary(op, a, b, c) => {
@@ -387,7 +398,7 @@ impl<'p> Machine<'p> {
                         self.smaller(raised, c)
                     }
                     TernaryAlgebra::ProductAndSum | TernaryAlgebra::Mix | TernaryAlgebra::Opaque => {
-                        self.pool.ternary(op, a, b, c)
+                        self.pool.settle(Node::Ternary(op, a, b, c))
                     }
                 }
             }
@@ -398,7 +409,7 @@ impl<'p> Machine<'p> {
         match self.sign(a, b) {
             Some(Sign::Positive | Sign::Zero) => a,
             Some(Sign::Negative) => b,
-            None => self.pool.binary(BinaryOp::Min, a, b),
+            None => self.pool.settle(Node::Binary(BinaryOp::Min, a, b)),
         }
     }
 
@@ -406,13 +417,18 @@ impl<'p> Machine<'p> {
         match self.sign(a, b) {
             Some(Sign::Positive | Sign::Zero) => b,
             Some(Sign::Negative) => a,
-            None => self.pool.binary(BinaryOp::Max, a, b),
+            None => self.pool.settle(Node::Binary(BinaryOp::Max, a, b)),
         }
     }
 
     /// Returns whether two resolved results are equal on this path, over the reals.
     pub(crate) fn equal(&mut self, a: &[ExprId], b: &[ExprId]) -> bool {
         a.iter().zip(b).all(|(a, b)| self.equal_numbers(*a, *b))
+    }
+
+    /// Returns whether resolved results are small enough to be compared.
+    pub(crate) fn has_forms(&mut self, values: &[ExprId]) -> bool {
+        values.iter().all(|value| self.normaliser.normal(&self.pool, *value).is_some())
     }
 
     fn equal_numbers(&mut self, a: ExprId, b: ExprId) -> bool {

@@ -1,4 +1,7 @@
-//! Several symmetries applied one after the other.
+//! The result that a symmetry says a program has, and several symmetries applied one after the other.
+//!
+//! All of this is the equation that [`Symmetry`] states. For two symmetries in turn it reads
+//! `V(x) = R1(R2(V(m2(m1(x)))))`: the images are taken in order, the results mapped back in reverse.
 
 use std::sync::Arc;
 
@@ -27,6 +30,21 @@ pub(crate) fn is_usable(program: &Program, symmetry: &Symmetry) -> bool {
         !facts.selects && facts.inputs.is_empty()
     });
     levels && numbers && result && image_of_state(program, symmetry, 0).is_some()
+}
+
+/// The result that a program has on the machine's path if it has a symmetry there, and the row that this
+/// comes from: the result at the image, mapped.
+pub(crate) fn said(machine: &mut Machine<'_>, symmetry: &Symmetry) -> (Option<usize>, Vec<ExprId>) {
+    let (row, values) = machine.run(View { symmetry: Some(symmetry), result: None });
+    (row, mapped(machine, symmetry.result, values))
+}
+
+/// Results, mapped one map after the other.
+fn mapped(machine: &mut Machine<'_>, maps: impl IntoIterator<Item = ExprId>, values: Vec<ExprId>) -> Vec<ExprId> {
+    maps.into_iter().fold(values, |values, map| {
+        let image = |value| machine.resolve(map, View { symmetry: None, result: Some(value) });
+        values.into_iter().map(image).collect()
+    })
 }
 
 /// The state that a symmetry turns a state into; `None` if that depends on other inputs.
@@ -164,7 +182,7 @@ impl Turn {
             }
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.number(pool, part));
-                pool.fold(node)
+                pool.settle(node)
             }
         }
     }
@@ -181,13 +199,15 @@ impl Turn {
 
     /// Values at the turned inputs, turned back.
     pub(crate) fn back(&self, machine: &mut Machine<'_>, values: &[ExprId]) -> Vec<ExprId> {
-        let turned = values.iter().map(|value| {
-            let value = machine.resolve(*value, self.view());
-            self.results
-                .iter()
-                .fold(value, |value, map| machine.resolve(*map, View { symmetry: None, result: Some(value) }))
-        });
-        turned.collect()
+        let turned = values.iter().map(|value| machine.resolve(*value, self.view())).collect();
+        mapped(machine, self.results.iter().copied(), turned)
+    }
+
+    /// The result that the program has on the machine's path if it has the symmetries of the word one
+    /// after the other.
+    pub(crate) fn said(&self, machine: &mut Machine<'_>) -> Vec<ExprId> {
+        let (_, values) = machine.run(self.view());
+        mapped(machine, self.results.iter().copied(), values)
     }
 
     /// The fetched inputs that stand behind one.

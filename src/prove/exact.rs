@@ -1,4 +1,4 @@
-//! The gate for plans that only branch: plan ≡ program, state by state, symbolically.
+//! The gate for plans that branch or look up coefficients: plan ≡ program, state by state, symbolically.
 //!
 //! For each state of the discrete inputs the program is run symbolically.
 //! Whatever the state does not decide (the level of a fetched input, a
@@ -26,47 +26,19 @@ use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
 use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
 
+/// The fault of a lookup.
+const NO_WAY: &str = "the plan's lookup has no way for this state";
+
 /// Most questions answered in one state, on all of its paths.
 const MAX_ANSWERS: usize = 1 << 22;
 
 /// Proves a plan in some states.
 pub(super) fn prove(plan: &Plan<'_>, states: &[usize]) -> Result<Proof, Refusal> {
-    let program = plan.program;
-    let mut prover = Prover {
-        plan,
-        pool: plan.pool.clone(),
-        normaliser: Normaliser::default(),
-        oracle: Oracle::new(program),
-        candidates: Candidates::new(program),
-        absent: InputSet::default(),
-        starts: route::starts(plan, states),
-        identical: 0,
-        paths: 0,
-        rounding: Some(0.0),
-    };
-    for (done, state) in states.iter().enumerate() {
-        program.states.write(*state, &mut prover.oracle.levels);
-        prover.oracle.restart();
-        let before = prover.paths;
-        loop {
-            prover.path(*state).map_err(Refusal::Different)?;
-            if !prover.oracle.advance() {
-                break;
-            }
-            let paths = prover.paths - before >= MAX_PATHS_OF_STATE || prover.paths - done > MAX_PATHS;
-            if paths || prover.oracle.answered > MAX_ANSWERS {
-                prover.oracle.restart();
-                return Err(Refusal::TooLong { shape: plan.shape.name(), state: prover.describe() });
-            }
-        }
+    let mut prover = Prover::new(plan, states);
+    for state in states {
+        prover.state(*state)?;
     }
-    Ok(Proof {
-        states: states.len(),
-        assumed: plan.assumed,
-        paths: prover.paths,
-        identical: prover.identical,
-        rounding: prover.rounding,
-    })
+    Ok(prover.proof)
 }
 
 /// A fact that a state leaves open.
@@ -130,7 +102,8 @@ impl Oracle {
     }
 }
 
-struct Prover<'a, 'p> {
+/// Proves a plan state by state.
+pub(super) struct Prover<'a, 'p> {
     plan: &'a Plan<'p>,
     /// The plan's terms, and those that resolving selections makes of them.
     pool: Pool,
@@ -142,9 +115,8 @@ struct Prover<'a, 'p> {
     absent: InputSet,
     /// The step at which the paths of each state begin.
     starts: Vec<StepId>,
-    identical: usize,
-    paths: usize,
-    rounding: Option<f64>,
+    /// The findings in the states so far.
+    proof: Proof,
 }
 
 /// A run of program or plan on one path. Selections in the values are not decided yet.
@@ -157,14 +129,62 @@ struct Run {
     absent: InputSet,
 }
 
-impl<'p> Prover<'_, 'p> {
-    fn path(&mut self, state: usize) -> Result<(), Box<Counterexample>> {
+impl<'a, 'p> Prover<'a, 'p> {
+    /// A prover for some states of a plan.
+    pub(super) fn new(plan: &'a Plan<'p>, states: &[usize]) -> Self {
+        let program = plan.program;
+        Self {
+            plan,
+            pool: plan.pool.clone(),
+            normaliser: Normaliser::default(),
+            oracle: Oracle::new(program),
+            candidates: Candidates::new(program),
+            absent: InputSet::default(),
+            starts: route::starts(plan, states),
+            proof: Proof::none(plan.assumed),
+        }
+    }
+
+    /// The findings in the states that were proved.
+    pub(super) fn proof(self) -> Proof {
+        self.proof
+    }
+
+    /// Proves the plan in one of the states; if that fails, the findings are as before.
+    pub(super) fn state(&mut self, state: usize) -> Result<(), Refusal> {
+        let before = self.proof.clone();
+        let done = self.every_path(state, before.paths);
+        match done {
+            Ok(()) => self.proof.states += 1,
+            Err(_) => self.proof = before,
+        }
+        done
+    }
+
+    fn every_path(&mut self, state: usize, before: usize) -> Result<(), Refusal> {
+        self.plan.program.states.write(state, &mut self.oracle.levels);
+        self.oracle.restart();
+        loop {
+            self.path(state)?;
+            if !self.oracle.advance() {
+                return Ok(());
+            }
+            let paths = self.proof.paths;
+            let too_many = paths - before >= MAX_PATHS_OF_STATE || paths - self.proof.states > MAX_PATHS;
+            if too_many || self.oracle.answered > MAX_ANSWERS {
+                self.oracle.restart();
+                return Err(Refusal::TooLong { shape: self.plan.shape.name(), state: self.describe() });
+            }
+        }
+    }
+
+    fn path(&mut self, state: usize) -> Result<(), Refusal> {
         let want = self.run_program(state);
         // The plan may ask further questions; they then become part of the path.
         let got = self.run_plan(state);
         self.absent = InputSet::default();
         let got = got.map_err(|reason| self.differs(reason, &want))?;
-        self.paths += 1;
+        self.proof.paths += 1;
         if (want.row, want.line) != (got.row, got.line) {
             let name = |run: &Run| self.name(run);
             let reason = format!("the table takes {}, the plan {}", name(&want), name(&got));
@@ -173,7 +193,7 @@ impl<'p> Prover<'_, 'p> {
         // Values that are the same before selections are decided need no decisions, unless these fetch.
         let fetches = |value: &ExprId| !self.pool.expr_facts(*value).inputs.and(self.plan.program.fetched).is_empty();
         if want.values == got.values && got.fetched.is_empty() && !want.values.iter().any(fetches) {
-            self.identical += 1;
+            self.proof.identical += 1;
             return Ok(());
         }
         let mut fetched = want.fetched;
@@ -197,23 +217,22 @@ impl<'p> Prover<'_, 'p> {
                 continue;
             }
             identical = false;
-            let equal = match (self.normaliser.normal(&self.pool, *a), self.normaliser.normal(&self.pool, *b)) {
-                (Some(a), Some(b)) => a == b,
-                _ => false,
-            };
-            if !equal {
+            let forms = (self.normaliser.normal(&self.pool, *a), self.normaliser.normal(&self.pool, *b));
+            if forms.0.is_none() || forms.0 != forms.1 {
                 let printer = Printer { pool: &self.pool, inputs: &self.plan.program.inputs };
                 let reason = format!("the table gives {}, the plan {}", printer.expr(*a), printer.expr(*b));
-                return Err(self.differs(reason, &want));
+                let found = self.counterexample(reason, &want);
+                return Err(match forms {
+                    (Some(_), Some(_)) => Refusal::Different(found),
+                    (None, _) | (_, None) => Refusal::Undecided(found),
+                });
             }
             let program = self.plan.program;
             let bound = |expr| rounding::error(program, &self.pool, expr);
-            self.rounding = match (self.rounding, bound(*a), bound(*b)) {
-                (Some(worst), Some(a), Some(b)) => Some(worst.max(a + b)),
-                _ => None,
-            };
+            let (a, b) = (bound(*a), bound(*b));
+            self.proof.apart(a, b);
         }
-        self.identical += usize::from(identical);
+        self.proof.identical += usize::from(identical);
         Ok(())
     }
 
@@ -228,7 +247,11 @@ impl<'p> Prover<'_, 'p> {
         }
     }
 
-    fn differs(&self, reason: String, want: &Run) -> Box<Counterexample> {
+    fn differs(&self, reason: String, want: &Run) -> Refusal {
+        Refusal::Different(self.counterexample(reason, want))
+    }
+
+    fn counterexample(&self, reason: String, want: &Run) -> Box<Counterexample> {
         Box::new(Counterexample { shape: self.plan.shape.name(), state: self.describe(), reason, row: want.row })
     }
 
@@ -292,7 +315,7 @@ impl<'p> Prover<'_, 'p> {
             match plan.step(at) {
                 Step::Switch { arms } => {
                     let arm = plan.lookup.get(state).and_then(|arm| arms.get(usize::from(*arm)));
-                    at = *arm.ok_or("the plan's lookup has no way for this state")?;
+                    at = *arm.ok_or(NO_WAY)?;
                 }
                 Step::Fetch { input, next } => {
                     if declared.contains(*input) || !plan.program.fetched.contains(*input) {
@@ -316,9 +339,27 @@ impl<'p> Prover<'_, 'p> {
                 Step::Test { condition, then, other } => {
                     at = if self.tested(*condition, declared)? { *then } else { *other };
                 }
-                // Other gates are for these.
-                Step::Coefficients { .. } | Step::Orbit { .. } => {
-                    return Err("the plan computes otherwise than the table".to_owned());
+                Step::Coefficients { rest } => {
+                    let entry = plan.lookup.get(state).map(|entry| usize::from(*entry)).ok_or(NO_WAY)?;
+                    if let Some(fit) = plan.coefficients.fits.get(entry) {
+                        let pieces = fit.pieces.iter();
+                        let values: Vec<ExprId> =
+                            pieces.map(|piece| plan.coefficients.value(&mut self.pool, piece)).collect();
+                        for value in &values {
+                            self.only_fetched(self.pool.expr_facts(*value).inputs, declared)?;
+                        }
+                        return Ok(Run { row: fit.row, line: fit.line, values, fetched, absent: self.absent });
+                    }
+                    at = *rest.get(entry - plan.coefficients.fits.len()).ok_or(NO_WAY)?;
+                }
+                Step::Orbit { arms } => {
+                    let entry = plan.lookup.get(state).map(|entry| usize::from(*entry)).ok_or(NO_WAY)?;
+                    let count = plan.symmetries.len();
+                    if entry & ((1 << count) - 1) != 0 {
+                        // Another gate is for that.
+                        return Err("the plan turns the inputs".to_owned());
+                    }
+                    at = *arms.get(entry >> count).ok_or(NO_WAY)?;
                 }
                 Step::Leaf(Leaf { row, line, values }) => {
                     for value in values {
@@ -407,7 +448,7 @@ impl<'p> Prover<'_, 'p> {
             Node::Const(_) | Node::Result | Node::Input(_) => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.decided_memo(part, memo));
-                self.pool.rebuild(node)
+                self.pool.settle(node)
             }
             Node::Select(c, a, b) => match self.decides(c) {
                 Some(true) => self.decided_memo(a, memo),
@@ -468,7 +509,7 @@ impl<'p> Prover<'_, 'p> {
             Node::Const(_) | Node::Result | Node::Input(_) => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.resolve_memo(part, fetched, memo));
-                self.pool.rebuild(node)
+                self.pool.settle(node)
             }
             Node::Select(c, a, b) => {
                 let chosen = if self.holds(c, fetched) { a } else { b };

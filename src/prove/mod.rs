@@ -1,7 +1,9 @@
 //! The gate: a plan is equal to its program, or is not emitted.
 //!
-//! Plans that only branch are compared operation by operation (`exact`), plans that compute over the
-//! reals (`real`), with a bound on how far `f32` can be from that (`rounding`).
+//! Plans are compared with the program operation by operation, or, where they compute otherwise, over the
+//! reals, with a bound on how far `f32` can be from that (`rounding`). The first gate (`exact`) knows what is
+//! written and normal forms of that; the other one (`real`) is for plans that turn their inputs, and knows
+//! what symmetries do and what can hold together.
 //!
 //! Of the planner this knows the graph alone (`plan::graph`, with its key layout and coefficients):
 //! whatever a shape does, it is judged by the steps that come out. What planner and prover both use is
@@ -20,7 +22,7 @@ use crate::diag::Failure;
 use crate::plan::{Plan, PlanOptions, Step};
 use crate::program::{Program, reachable};
 
-pub use report::{Counterexample, Proof, Refusal, is_unsuitable};
+pub use report::{Counterexample, Proof, Refusal, is_of_one_plan, is_unsuitable};
 
 /// A plan that was proved equal to its program. There is no other way to make one than the proof.
 #[derive(Debug, Clone)]
@@ -49,10 +51,13 @@ pub fn prove(plan: &Plan<'_>) -> Result<Proof, Refusal> {
     let program = plan.program;
     let states = if plan.assumed { reachable(program) } else { (0..program.states.count()).collect() };
     match plan.step(plan.behind_fetches()) {
-        Step::Coefficients { .. } | Step::Orbit { .. } => real::prove(plan, &states),
-        Step::Test { .. } | Step::Fetch { .. } | Step::Gather { .. } | Step::Switch { .. } | Step::Leaf(_) => {
-            exact::prove(plan, &states)
-        }
+        Step::Orbit { .. } => real::prove(plan, &states),
+        Step::Test { .. }
+        | Step::Fetch { .. }
+        | Step::Gather { .. }
+        | Step::Switch { .. }
+        | Step::Coefficients { .. }
+        | Step::Leaf(_) => exact::prove(plan, &states),
     }
 }
 

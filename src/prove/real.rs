@@ -1,16 +1,17 @@
-//! The gate for plans that compute otherwise than the table: equality over the
-//! reals, wherever the assumptions hold if the plan makes use of them.
+//! The gate for plans that turn their inputs: equality over the reals, wherever the assumptions hold if
+//! the plan makes use of them.
 //!
-//! [`prove`](super::exact) compares operations and takes comparisons that look
-//! different for independent. Here program and plan run on the same
-//! [`Machine`], which knows the signs of differences and what can hold together,
-//! so that `min(u, 1 + w - d)` is seen to be `u` where an assumption says so.
-//! Cases must agree where the plan reports them; of fetches, the plan may make
-//! none that the program does not, and none twice.
+//! Where inputs stay as they are and no other case stands in, [`exact`](super::exact) may prove a state
+//! operation by operation; that is tried first. Elsewhere program and plan run on the same [`Machine`],
+//! which knows the signs of differences and what can hold together, so that `min(u, 1 + w - d)` is seen to
+//! be `u` where an assumption says so. It takes comparisons for those of real numbers. A bound on `f32` is
+//! therefore stated only if all that were made compare numbers that `f32` has exactly. Cases need not agree;
+//! of fetches, the plan may make none that the program does not, and none twice.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;
 
+use super::exact;
 use super::report::{Counterexample, Proof, Refusal};
 use super::rounding;
 use crate::plan::{Plan, Step, StepId};
@@ -24,45 +25,40 @@ use crate::program::{ExprId, InputSet};
 pub(super) fn prove(plan: &Plan<'_>, states: &[usize]) -> Result<Proof, Refusal> {
     let program = plan.program;
     let mut machine = Machine::over(program, &plan.pool);
-    let mut prover = Prover {
-        plan,
-        proof: Proof { states: states.len(), assumed: plan.assumed, paths: 0, identical: 0, rounding: Some(0.0) },
-        errors: HashMap::new(),
-        compares: compares(plan),
-        candidates: Candidates::new(program),
+    let word = |state: usize| {
+        let entry = usize::from(plan.lookup.get(state).copied().unwrap_or_default());
+        entry & ((1 << plan.symmetries.len()) - 1)
     };
+    let plain: Vec<usize> = states.iter().copied().filter(|state| word(*state) == 0).collect();
+    let mut branching = exact::Prover::new(plan, &plain);
+    let mut prover =
+        Prover { plan, proof: Proof::none(plan.assumed), errors: HashMap::new(), candidates: Candidates::new(program) };
     for state in states {
-        let turn = match plan.step(plan.behind_fetches()) {
-            Step::Orbit { .. } => {
-                let entry = usize::from(plan.lookup.get(*state).copied().unwrap_or_default());
-                let word = entry & ((1 << plan.symmetries.len()) - 1);
-                Turn::new(program, machine.pool(), &plan.symmetries, word, *state)
-            }
-            Step::Test { .. }
-            | Step::Fetch { .. }
-            | Step::Gather { .. }
-            | Step::Switch { .. }
-            | Step::Coefficients { .. }
-            | Step::Leaf(_) => None,
-        };
+        let word = word(*state);
+        if word == 0 && branching.state(*state).is_ok() {
+            continue;
+        }
+        let turn = Turn::new(program, machine.pool(), &plan.symmetries, word, *state);
         let mut different = None;
         machine.any_path(*state, |machine| match prover.path(machine, *state, turn.as_ref()) {
             Ok(()) => ControlFlow::Continue(()),
-            Err((row, reason)) => {
-                different = Some((row, reason));
+            Err(found) => {
+                different = Some(found);
                 ControlFlow::Break(())
             }
         });
         let described = |machine: &Machine<'_>| machine.describe().split(", ").map(str::to_owned).collect();
-        if let Some((row, reason)) = different {
+        if let Some(Difference { row, reason, certain }) = different {
             let (shape, state) = (plan.shape.name(), described(&machine));
-            return Err(Refusal::Different(Box::new(Counterexample { shape, state, reason, row })));
+            let found = Box::new(Counterexample { shape, state, reason, row });
+            return Err(if certain { Refusal::Different(found) } else { Refusal::Undecided(found) });
         }
         if machine.gave_up() {
             return Err(Refusal::TooLong { shape: plan.shape.name(), state: described(&machine) });
         }
+        prover.proof.states += 1;
     }
-    Ok(prover.proof)
+    Ok(branching.proof().and(prover.proof))
 }
 
 struct Prover<'a, 'p> {
@@ -70,30 +66,22 @@ struct Prover<'a, 'p> {
     proof: Proof,
     /// Bounds of the rounding of expressions.
     errors: HashMap<ExprId, Option<f64>>,
-    /// True if the plan compares numbers.
-    compares: bool,
     candidates: Candidates,
 }
 
-/// Returns whether a plan compares numbers, or chooses between values, behind its lookup.
-fn compares(plan: &Plan<'_>) -> bool {
-    plan.reachable().into_iter().any(|step| match plan.step(step) {
-        Step::Test { condition, .. } => plan.pool.compares(*condition),
-        Step::Leaf(leaf) => leaf.values.iter().any(|value| plan.pool.expr_facts(*value).selects),
-        Step::Gather { condition, .. } => plan.pool.compares(*condition),
-        Step::Fetch { .. } | Step::Switch { .. } | Step::Coefficients { .. } | Step::Orbit { .. } => false,
-    })
-}
-
 struct Run {
-    row: Option<usize>,
-    line: Option<usize>,
     values: Vec<ExprId>,
     fetched: InputSet,
 }
 
-/// The row that the program takes, and what is wrong.
-type Difference = (Option<usize>, String);
+/// A path on which the plan is not equal to the program.
+struct Difference {
+    /// The row that the program takes.
+    row: Option<usize>,
+    reason: String,
+    /// False if they may be equal all the same.
+    certain: bool,
+}
 
 impl Prover<'_, '_> {
     fn path(&mut self, machine: &mut Machine<'_>, state: usize, turn: Option<&Turn>) -> Result<(), Difference> {
@@ -105,49 +93,49 @@ impl Prover<'_, '_> {
             }
         }
         machine.take_fetched();
-        let (row, line, want) = machine.run_to_line(self.candidates.of(state));
+        let (row, _, want) = machine.run_to_line(self.candidates.of(state));
+        let wrong = |reason: String| Difference { row, reason, certain: true };
         let needed = machine.take_fetched();
         let got = self.run(machine, state, turn);
         machine.set_absent(InputSet::default());
-        let got = got.map_err(|reason| (row, reason))?;
+        let got = got.map_err(wrong)?;
         self.proof.paths += 1;
-        if self.plan.reports_case() && (row, line) != (got.row, got.line) {
-            let name =
-                |row: Option<usize>| row.map_or("the default".to_owned(), |r| format!("case {}", program.rows[r].id));
-            let reason = match row == got.row {
-                true => format!("the plan takes another line of {}", name(row)),
-                false => format!("the table takes {}, the plan {}", name(row), name(got.row)),
-            };
-            return Err((row, reason));
-        }
         if let Some(input) = got.fetched.minus(needed).iter().next() {
             let input = &program.inputs[input.index()].name;
-            return Err((row, format!("the plan fetches `{input}`, which the table does not need here")));
+            return Err(wrong(format!("the plan fetches `{input}`, which the table does not need here")));
         }
-        // The same values, but comparisons of turned inputs may go the other way.
-        let turned = turn.is_some_and(|turn| !turn.is_identity());
-        if turned && self.compares {
+        // What compares rounded numbers may come out otherwise than it does here.
+        let compared = machine.take_compared();
+        let as_taken = compared.iter().all(|(a, b)| self.is_exact(machine, *a) && self.is_exact(machine, *b));
+        if !as_taken {
             self.proof.rounding = None;
         }
         if want == got.values {
-            self.proof.identical += usize::from(!turned);
+            let turned = turn.is_some_and(|turn| !turn.is_identity());
+            self.proof.identical += usize::from(as_taken && !turned);
             return Ok(());
         }
         if !machine.equal(&want, &got.values) {
+            let certain = machine.has_forms(&want) && machine.has_forms(&got.values);
             let printer = Printer { pool: machine.pool(), inputs: &program.inputs };
             let list = |values: &[ExprId]| values.iter().map(|v| printer.expr(*v)).collect::<Vec<_>>().join(", ");
-            return Err((row, format!("the table gives {}, the plan {}", list(&want), list(&got.values))));
+            let reason = format!("the table gives {}, the plan {}", list(&want), list(&got.values));
+            return Err(Difference { row, reason, certain });
         }
         for (a, b) in want.iter().zip(&got.values).filter(|(a, b)| a != b) {
-            let mut bound = |expr: ExprId| {
-                *self.errors.entry(expr).or_insert_with(|| rounding::error(program, machine.pool(), expr))
-            };
-            self.proof.rounding = match (self.proof.rounding, bound(*a), bound(*b)) {
-                (Some(worst), Some(a), Some(b)) => Some(worst.max(a + b)),
-                _ => None,
-            };
+            let (a, b) = (self.error(machine, *a), self.error(machine, *b));
+            self.proof.apart(a, b);
         }
         Ok(())
+    }
+
+    fn error(&mut self, machine: &mut Machine<'_>, expr: ExprId) -> Option<f64> {
+        let program = self.plan.program;
+        *self.errors.entry(expr).or_insert_with(|| rounding::error(program, machine.pool(), expr))
+    }
+
+    fn is_exact(&mut self, machine: &mut Machine<'_>, expr: ExprId) -> bool {
+        self.error(machine, expr) == Some(0.0)
     }
 
     /// The plan, step by step, with the discipline of fetching checked.
@@ -162,20 +150,14 @@ impl Prover<'_, '_> {
         let mut at: StepId = plan.root();
         loop {
             match plan.step(at) {
-                Step::Switch { arms } => at = *entry.and_then(|arm| arms.get(arm)).ok_or(no_way)?,
+                // Another gate is for these.
+                Step::Switch { .. } | Step::Coefficients { .. } => {
+                    return Err("the plan looks up what it does not turn".to_owned());
+                }
                 Step::Orbit { arms } => {
                     view = turn.ok_or("a symmetry does not apply in this state")?.view();
                     let arm = entry.map(|entry| entry >> plan.symmetries.len());
                     at = *arm.and_then(|arm| arms.get(arm)).ok_or(no_way)?;
-                }
-                Step::Coefficients { rest } => {
-                    let entry = entry.ok_or(no_way)?;
-                    if let Some(fit) = plan.coefficients.fits.get(entry) {
-                        let pieces = fit.pieces.iter();
-                        let values = pieces.map(|piece| plan.coefficients.value(machine.pool(), piece)).collect();
-                        return Ok(Run { row: fit.row, line: fit.line, values, fetched });
-                    }
-                    at = *rest.get(entry - plan.coefficients.fits.len()).ok_or(no_way)?;
                 }
                 Step::Test { condition, then, other } => {
                     self.only_fetched(self.behind(turn, view, plan.pool.cond_facts(*condition).inputs), declared)?;
@@ -210,7 +192,7 @@ impl Prover<'_, '_> {
                         Some(turn) => turn.back(machine, &leaf.values),
                         None => leaf.values.iter().map(|value| machine.resolve(*value, view)).collect(),
                     };
-                    return Ok(Run { row: leaf.row, line: leaf.line, values, fetched });
+                    return Ok(Run { values, fetched });
                 }
             }
         }

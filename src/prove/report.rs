@@ -25,6 +25,19 @@ pub struct Proof {
 }
 
 impl Proof {
+    /// The findings before the first state.
+    pub(super) fn none(assumed: bool) -> Self {
+        Self { states: 0, assumed, paths: 0, identical: 0, rounding: Some(0.0) }
+    }
+
+    /// Notes values that are equal over the reals, with the bounds of their errors in `f32`.
+    pub(super) fn apart(&mut self, a: Option<f64>, b: Option<f64>) {
+        self.rounding = match (self.rounding, a, b) {
+            (Some(worst), Some(a), Some(b)) => Some(worst.max(a + b)),
+            _ => None,
+        };
+    }
+
     /// The findings of the proofs of two programs together.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
@@ -47,9 +60,22 @@ impl fmt::Display for Proof {
         }
         write!(f, "the same operations on {}, on the others equal over the reals", self.identical)?;
         match self.rounding {
-            Some(bound) => write!(f, " and at most {bound:.1e} apart in f32"),
+            Some(bound) => write!(f, " and at most {} apart in f32", above(bound)),
             None => write!(f, " with no bound on the f32 difference"),
         }
+    }
+}
+
+/// A number that is not below another, with two digits.
+fn above(bound: f64) -> String {
+    let shown = format!("{bound:.1e}");
+    match shown.parse::<f64>() {
+        Ok(value) if value < bound => {
+            // Half a unit of the second digit and a little more is enough for the next number.
+            let unit = 10_f64.powi(bound.abs().log10().floor() as i32 - 1);
+            format!("{:.1e}", value + unit)
+        }
+        _ => shown,
     }
 }
 
@@ -58,6 +84,8 @@ impl fmt::Display for Proof {
 pub enum Refusal {
     /// It is not equal to its program.
     Different(Box<Counterexample>),
+    /// Table and plan may be equal, but that cannot be computed.
+    Undecided(Box<Counterexample>),
     /// There are too many paths to go through.
     TooLong {
         /// The shape of the plan.
@@ -72,6 +100,15 @@ impl Refusal {
     pub fn into_failure(self, program: &Program) -> Failure {
         match self {
             Refusal::Different(counterexample) => counterexample.into_failure(program),
+            Refusal::Undecided(open) => {
+                let span = open.row.map_or(program.hit_policy_span, |row| program.rows[row].span);
+                let message = format!("the plan `{}` cannot be compared with the table `{}`", open.shape, program.name);
+                let diagnostic = Diagnostic::error(codes::NOT_APPLICABLE, message)
+                    .at(span, open.reason)
+                    .help("its numbers, or the sums that minima and maxima make, are too large to be compared exactly; use `switch` or `ladder`")
+                    .help(format!("in the state {}", open.state.join(", ")));
+                Failure::new(program.source.clone(), diagnostic)
+            }
             Refusal::TooLong { shape, state } => {
                 let message = format!("the plan `{shape}` of `{}` has too many paths to be proved", program.name);
                 let diagnostic = Diagnostic::error(codes::PROOF_TOO_LONG, message)
@@ -107,7 +144,7 @@ impl Counterexample {
             Diagnostic::error(codes::NOT_PROVED, format!("the plan `{}` is not equal to the table", self.shape))
                 .at(span, self.reason)
                 .help(format!("in the state {}", self.state.join(", ")))
-                .help("nothing was emitted; please report this: a plan must never differ");
+                .help("the plan is left out; please report this: a plan must never differ");
         Failure::new(program.source.clone(), diagnostic)
     }
 }
@@ -117,4 +154,31 @@ impl Counterexample {
 pub fn is_unsuitable(failure: &Failure) -> bool {
     let code = failure.diagnostics.first().map(|diagnostic| diagnostic.code);
     code == Some(codes::NOT_APPLICABLE) || code == Some(codes::PROOF_TOO_LONG)
+}
+
+/// Returns whether a failure is about one plan, so that others of the same table may be had: the plan is
+/// unsuitable, or, which would be a bug of the planner, not equal to the table.
+pub fn is_of_one_plan(failure: &Failure) -> bool {
+    let refused = failure.diagnostics.first().is_some_and(|diagnostic| diagnostic.code == codes::NOT_PROVED);
+    refused || is_unsuitable(failure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_is_never_shown_smaller() {
+        for (bound, shown) in
+            [(1.84e-7, "1.9e-7"), (1.8e-7, "1.8e-7"), (9.99e-8, "1.0e-7"), (1.0, "1.0e0"), (0.0, "0.0e0")]
+        {
+            assert_eq!(above(bound), shown);
+        }
+        let mut bound = 1e-38;
+        while bound < 1e30 {
+            let shown: f64 = above(bound).parse().expect("a number");
+            assert!(shown >= bound && shown <= bound * 1.11, "{bound:e}: {shown:e}");
+            bound *= 1.037;
+        }
+    }
 }

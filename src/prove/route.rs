@@ -89,12 +89,21 @@ impl Router<'_, '_> {
                     self.open.extend(ways);
                     return;
                 }
-                Step::Test { .. }
-                | Step::Fetch { .. }
-                | Step::Gather { .. }
-                | Step::Coefficients { .. }
-                | Step::Orbit { .. }
-                | Step::Leaf(_) => {
+                Step::Coefficients { rest } => {
+                    let mut ways: BTreeMap<StepId, Vec<usize>> = BTreeMap::new();
+                    for state in states.into_iter().filter(|state| self.owner[*state] == group) {
+                        let entry = plan.lookup.get(state).map(|entry| usize::from(*entry));
+                        let behind = entry.and_then(|entry| entry.checked_sub(plan.coefficients.fits.len()));
+                        match behind.and_then(|place| rest.get(place)) {
+                            Some(arm) => ways.entry(*arm).or_default().push(state),
+                            // It has coefficients, or no way at all.
+                            None => self.starts[state] = at,
+                        }
+                    }
+                    self.open.extend(ways);
+                    return;
+                }
+                Step::Test { .. } | Step::Fetch { .. } | Step::Gather { .. } | Step::Orbit { .. } | Step::Leaf(_) => {
                     for state in states.into_iter().filter(|state| self.owner[*state] == group) {
                         self.starts[state] = at;
                     }

@@ -243,8 +243,8 @@ fn plans<'p>(
     let (mut proved, mut skipped): Plans<'p> = (Vec::new(), Vec::new());
     for candidate in Candidate::all(options) {
         progress(&format!("planning {}", candidate.name()));
-        match Plan::new(program, candidate.options(weights)) {
-            Ok(plan) => proved.push((candidate, plan.prove()?)),
+        match Plan::proved(program, candidate.options(weights)) {
+            Ok(plan) => proved.push((candidate, plan)),
             Err(failure) => {
                 let notes = failure.diagnostics.into_iter().flat_map(|d| d.notes).collect::<Vec<_>>();
                 skipped.push((candidate, notes.join("; ")));

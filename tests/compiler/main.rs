@@ -15,5 +15,7 @@ mod published_numbers;
 #[path = "../support/mod.rs"]
 mod support;
 #[cfg(feature = "trial")]
+mod symmetries;
+#[cfg(feature = "trial")]
 mod trial;
 mod words;

@@ -158,13 +158,13 @@ fn contradictions(study: &mut Study<'_>, number: usize) -> (Vec<Contradiction>, 
     (broken, saved)
 }
 
-/// The set where a value, mapped as results are, is not the value of the image.
+/// The set where a value is not that of the image, mapped as results are.
 fn differ(study: &mut Study<'_>, symmetry: &Symmetry, piece: &Piece, image: &Piece) -> Set {
     let Some(map) = symmetry.result else { return study.space.different(&piece.values, &image.values) };
     let mut result = Set::EMPTY;
     for (value, other) in piece.values.iter().zip(&image.values) {
-        let mapped = study.space.with_result(map, *value);
-        let different = study.space.different(&[mapped], &[*other]);
+        let said = study.space.with_result(map, *other);
+        let different = study.space.different(&[*value], &[said]);
         result = study.space.sets.or(result, different);
     }
     result

@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use crate::program::symbolic::{Machine, View};
-use crate::program::{Assumption, Program, Symmetry};
+use crate::program::{Assumption, Program, Symmetry, turn};
 
 /// A state in which a table does not have a symmetry.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub struct Violation {
     pub path: String,
 }
 
-/// The states in which the image of the result is not the result of the image,
+/// The states in which the result is not what the symmetry says, the mapped result at the image,
 /// for some fetched and continuous inputs, over the reals.
 pub fn violations(program: &Program, symmetry: &Symmetry) -> Vec<Violation> {
     violations_under(program, symmetry, &[])
@@ -37,20 +37,14 @@ fn violation(
     assumed: &[&Assumption],
     state: usize,
 ) -> Option<Violation> {
-    let image = View { symmetry: Some(symmetry), result: None };
     let mut found = None;
     machine.any_path(state, |machine| {
         if !assumed.iter().all(|assumption| machine.holds(assumption.condition, View::PLAIN)) {
             return ControlFlow::Continue(());
         }
-        let (row, mut values) = machine.run(View::PLAIN);
-        if let Some(map) = symmetry.result {
-            for value in &mut values {
-                *value = machine.resolve(map, View { symmetry: None, result: Some(*value) });
-            }
-        }
-        let (image_row, image_values) = machine.run(image);
-        if machine.equal(&values, &image_values) {
+        let (row, values) = machine.run(View::PLAIN);
+        let (image_row, said) = turn::said(machine, symmetry);
+        if machine.equal(&values, &said) {
             return ControlFlow::Continue(());
         }
         found = Some(Violation { state, row, image_row, path: machine.describe() });

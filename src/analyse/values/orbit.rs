@@ -4,39 +4,15 @@
 use super::point::{Outcome, Point};
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::Study;
-use crate::program::{BinaryOp, ExprId, Node, Pool, Program, Symmetry};
+use crate::program::{ExprId, Node, Pool, Program};
 
 /// Most images of one point that are looked at.
 const MAX_MEMBERS: usize = 128;
 
-/// The change of the result by a symmetry: `factor * value + offset`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::analyse) struct Scale {
-    factor: f64,
-    offset: f64,
-}
-
-impl Scale {
-    const SAME: Scale = Scale { factor: 1.0, offset: 0.0 };
-
-    /// The result map of a symmetry, unless it is not of this form or cannot be undone.
-    fn of(pool: &Pool, symmetry: &Symmetry) -> Option<Self> {
-        let Some(map) = symmetry.result else { return Some(Self::SAME) };
-        let at = |value: f64| result_at(pool, map, value);
-        let (offset, one, two) = (at(0.0)?, at(1.0)?, at(2.0)?);
-        let factor = one - offset;
-        ((two - one - factor).abs() < 1e-12 && factor != 0.0).then_some(Self { factor, offset })
-    }
-
-    /// The value that this maps to `image`.
-    fn undo(self, image: f64) -> f64 {
-        (image - self.offset) / self.factor
-    }
-
-    /// First `self`, then `next`.
-    fn then(self, next: Scale) -> Self {
-        Self { factor: self.factor * next.factor, offset: self.offset * next.factor + next.offset }
-    }
+/// The value that a point has if it has some symmetries one after the other, and its image this value.
+fn said(program: &Program, path: &[usize], image: f64) -> Option<f64> {
+    let maps = path.iter().rev().filter_map(|number| program.symmetries[*number].result);
+    maps.fold(Some(image), |value, map| result_at(&program.pool, map, value?))
 }
 
 /// A result map at a value; it mentions nothing else.
@@ -60,7 +36,6 @@ pub(in crate::analyse) struct Member {
     pub(in crate::analyse) says: Vec<f64>,
     /// The symmetries that lead here, as indices into [`Program::symmetries`].
     path: Vec<usize>,
-    scale: Scale,
 }
 
 /// A point with its images.
@@ -74,26 +49,28 @@ impl Orbit {
     /// Follows some symmetries from a point, to wherever the assumptions hold.
     pub(in crate::analyse) fn new(program: &Program, start: Point, along: &[usize]) -> Self {
         let pool = &program.pool;
-        let scales: Vec<(usize, Scale)> =
-            along.iter().filter_map(|number| Some((*number, Scale::of(pool, &program.symmetries[*number])?))).collect();
         let outcome = start.outcome(program);
-        let first =
-            Member { says: outcome.values.clone(), point: start, outcome, path: Vec::new(), scale: Scale::SAME };
+        let first = Member { says: outcome.values.clone(), point: start, outcome, path: Vec::new() };
         let mut members = vec![first];
         let mut next = 0;
         while next < members.len() && members.len() < MAX_MEMBERS {
-            for (number, scale) in &scales {
+            for number in along {
                 let from = &members[next];
                 let point = from.point.image(pool, &program.symmetries[*number]);
                 let occurs = program.assumptions.iter().all(|a| point.holds(pool, a.condition));
-                if !occurs || members.iter().any(|member| member.point == point) {
+                if !occurs {
                     continue;
                 }
                 let outcome = point.outcome(program);
-                let path = from.path.iter().copied().chain([*number]).collect();
-                let scale = from.scale.then(*scale);
-                let says = outcome.values.iter().map(|value| scale.undo(*value)).collect();
-                members.push(Member { point, outcome, says, path, scale });
+                let path: Vec<usize> = from.path.iter().copied().chain([*number]).collect();
+                let says: Option<Vec<f64>> = outcome.values.iter().map(|value| said(program, &path, *value)).collect();
+                let Some(says) = says else { continue };
+                // A point that is its own image has a say if it contradicts itself.
+                let known = |member: &Member| member.point == point && (path.len() > 1 || agree(&member.says, &says));
+                if members.iter().any(known) {
+                    continue;
+                }
+                members.push(Member { point, outcome, says, path });
             }
             next += 1;
         }
@@ -160,19 +137,8 @@ pub(in crate::analyse) fn expected(study: &mut Study<'_>, member: &Member) -> Op
             let parts = study.space.parts(chosen, view);
             let (_, image) = parts.first()?;
             let image = crate::analyse::words::bare(&study.space, *image);
-            let pool = &mut study.space.pool;
-            Some(match member.scale {
-                Scale::SAME => image,
-                Scale { factor: -1.0, offset } => {
-                    let offset = pool.number(offset);
-                    pool.binary(BinaryOp::Subtract, offset, image)
-                }
-                Scale { factor, offset } => {
-                    let (factor, offset) = (pool.number(factor), pool.number(offset));
-                    let shifted = pool.binary(BinaryOp::Subtract, image, offset);
-                    pool.binary(BinaryOp::Divide, shifted, factor)
-                }
-            })
+            let maps = member.path.iter().rev().filter_map(|number| program.symmetries[*number].result);
+            Some(maps.fold(image, |value, map| study.space.with_result(map, value)))
         })
         .collect()
 }

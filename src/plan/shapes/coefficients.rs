@@ -4,7 +4,7 @@
 //! A maximum is the negative of the minimum of the negatives, so that one
 //! formula serves both. Negation is exact, so that nothing is lost by it.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::Definition;
 use crate::plan::arms::Arms;
@@ -152,10 +152,12 @@ struct Fitter {
 }
 
 impl Fitter {
-    /// A result that needs no test, no fetch and no selection.
+    /// A result that needs no test, no fetch and no selection, and no operation on constants that comes out
+    /// otherwise in `f32` than over the reals.
     fn leaf(&self, builder: &Builder<'_>, step: StepId) -> Option<Leaf> {
         let Step::Leaf(leaf) = builder.step(step) else { return None };
-        let plain = |value: &ExprId| !builder.pool.expr_facts(*value).selects;
+        let pool = &builder.pool;
+        let plain = |value: &ExprId| !pool.expr_facts(*value).selects && folds(pool, *value, &mut HashSet::new());
         leaf.values.iter().all(plain).then(|| leaf.clone())
     }
 
@@ -192,6 +194,15 @@ impl Fitter {
         });
         Some(Raw { sign, forms: forms.collect::<Option<_>>()? })
     }
+}
+
+/// Returns whether operations on constants, anywhere in an expression, are in `f32` what they are in `f64`.
+fn folds(pool: &Pool, expr: ExprId, seen: &mut HashSet<ExprId>) -> bool {
+    if !seen.insert(expr) {
+        return true;
+    }
+    let node = pool.node(expr);
+    pool.folds(node) && node.children().all(|part| folds(pool, part, seen))
 }
 
 /// A rational as the double that it is, if it is one.

@@ -20,7 +20,7 @@ use crate::plan::{Plan, Step, StepId};
 use crate::program::symbolic::{Machine, View};
 use crate::program::turn;
 use crate::program::turn::Turn;
-use crate::program::{InputId, LevelSet, Symmetry};
+use crate::program::{ExprId, InputId, LevelSet, Symmetry};
 
 /// Most symmetries whose words are gone through.
 const MAX_SYMMETRIES: usize = 6;
@@ -64,8 +64,9 @@ fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let key = KeyLayout::new(program)?;
     key.fits(MAX_BUFFER_BITS, "use `ladder`")?;
     let images = images(setting, &symmetries);
-    let ways: HashMap<usize, Way> =
-        setting.states.iter().map(|state| (*state, representative(*state, &images, symmetries.len()))).collect();
+    let mut machine = Machine::new(program);
+    let way = |state: &usize| (*state, representative(&mut machine, setting, &symmetries, &images, *state));
+    let ways: HashMap<usize, Way> = setting.states.iter().map(way).collect();
     if ways.values().all(|way| way.word == 0) {
         return Err("the table has none of its symmetries in any state".to_owned());
     }
@@ -136,23 +137,27 @@ fn images(setting: &Setting<'_, '_>, symmetries: &[usize]) -> Vec<HashMap<usize,
 
 /// Returns whether the table has a symmetry in a state: everywhere, or where the assumptions hold.
 fn has(machine: &mut Machine<'_>, setting: &Setting<'_, '_>, symmetry: &Symmetry, state: usize) -> bool {
-    let image = View { symmetry: Some(symmetry), result: None };
+    is_said(machine, setting, state, |machine| turn::said(machine, symmetry).1)
+}
+
+/// Returns whether the result in a state is what `said` gives, wherever it counts, with no input fetched
+/// for that beyond those that the table needs: others are of no use even if the value is right.
+fn is_said(
+    machine: &mut Machine<'_>,
+    setting: &Setting<'_, '_>,
+    state: usize,
+    said: impl Fn(&mut Machine<'_>) -> Vec<ExprId>,
+) -> bool {
     let broken = machine.any_path(state, |machine| {
         if !setting.assumptions_hold(machine) {
             return ControlFlow::Continue(());
         }
         machine.take_fetched();
-        let (_, mut values) = machine.run(View::PLAIN);
+        let (_, values) = machine.run(View::PLAIN);
         let needed = machine.take_fetched();
-        if let Some(map) = symmetry.result {
-            for value in &mut values {
-                *value = machine.resolve(map, View { symmetry: None, result: Some(*value) });
-            }
-        }
-        let (_, image_values) = machine.run(image);
+        let said = said(machine);
         let fetched = machine.take_fetched();
-        // An image that fetches more is of no use even if its value is right.
-        match fetched.minus(needed).is_empty() && machine.equal(&values, &image_values) {
+        match fetched.minus(needed).is_empty() && machine.equal(&values, &said) {
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         }
@@ -161,18 +166,29 @@ fn has(machine: &mut Machine<'_>, setting: &Setting<'_, '_>, symmetry: &Symmetry
 }
 
 /// The first state, in their order, that symmetries turn a state into.
-fn representative(state: usize, images: &[HashMap<usize, usize>], count: usize) -> Way {
+fn representative(
+    machine: &mut Machine<'_>,
+    setting: &Setting<'_, '_>,
+    symmetries: &[usize],
+    images: &[HashMap<usize, usize>],
+    state: usize,
+) -> Way {
     let mut best = Way { word: 0, target: state };
-    for word in 1..1 << count {
+    for word in 1_usize..1 << symmetries.len() {
         let mut at = Some(state);
         for (bit, image) in images.iter().enumerate() {
             if word >> bit & 1 == 1 {
                 at = at.and_then(|state| image.get(&state).copied());
             }
         }
-        if let Some(target) = at
-            && target < best.target
-        {
+        let Some(target) = at.filter(|target| *target < best.target) else { continue };
+        // An image of what the assumptions admit need not be admitted, so what holds of each symmetry
+        // need not hold of one after the other.
+        let holds = word.count_ones() == 1
+            || !setting.options.assume
+            || Turn::new(setting.program, machine.pool(), symmetries, word, state)
+                .is_some_and(|turn| is_said(machine, setting, state, |machine| turn.said(machine)));
+        if holds {
             best = Way { word, target };
         }
     }
