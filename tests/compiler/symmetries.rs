@@ -13,7 +13,10 @@ use umbrage::prove::is_unsuitable;
 use umbrage::table::Table;
 
 const LEVELS: [&str; 3] = ["a", "b", "c"];
-const RESULTS: [(&str, fn(f64) -> f64); 6] = [
+/// A result as a table writes it, and what it does.
+type Result = (&'static str, fn(f64) -> f64);
+
+const RESULTS: [Result; 6] = [
     ("value", |v| v),
     ("1 - value", |v| 1.0 - v),
     ("2 * value", |v| 2.0 * v),

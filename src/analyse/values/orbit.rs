@@ -11,8 +11,8 @@ const MAX_MEMBERS: usize = 128;
 
 /// The value that a point has if it has some symmetries one after the other, and its image this value.
 fn said(program: &Program, path: &[usize], image: f64) -> Option<f64> {
-    let maps = path.iter().rev().filter_map(|number| program.symmetries[*number].result);
-    maps.fold(Some(image), |value, map| result_at(&program.pool, map, value?))
+    let mut maps = path.iter().rev().filter_map(|number| program.symmetries[*number].result);
+    maps.try_fold(image, |value, map| result_at(&program.pool, map, value))
 }
 
 /// A result map at a value; it mentions nothing else.
