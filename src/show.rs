@@ -31,6 +31,8 @@ pub fn words(output: &Output, values: &[f64], precision: Precision) -> Vec<Strin
 fn parts(reading: &Reading<'_>, precision: Precision) -> Vec<String> {
     match reading {
         Reading::Number(value) => vec![precision.show(*value)],
+        Reading::Bool(value) => vec![value.to_string()],
+        Reading::Int(value) => vec![value.to_string()],
         Reading::Level(_, name) => vec![(*name).to_owned()],
         Reading::Vector(values) => values.iter().map(|value| precision.show(*value)).collect(),
         Reading::Record(fields) => fields.iter().flat_map(|(_, field)| parts(field, precision)).collect(),
@@ -45,7 +47,9 @@ pub fn sentence(output: &Output, values: &[f64], precision: Precision) -> String
 
 fn spoken(reading: &Reading<'_>, precision: Precision) -> String {
     match reading {
-        Reading::Number(_) | Reading::Level(..) => parts(reading, precision).concat(),
+        Reading::Number(_) | Reading::Bool(_) | Reading::Int(_) | Reading::Level(..) => {
+            parts(reading, precision).concat()
+        }
         Reading::Vector(_) => format!("({})", parts(reading, precision).join(", ")),
         Reading::Record(fields) => {
             let fields = fields.iter().map(|(name, field)| format!("{name} = {}", inner(field, precision)));
@@ -59,9 +63,13 @@ fn spoken(reading: &Reading<'_>, precision: Precision) -> String {
 /// A part of a result. What is made of several words is held together.
 fn inner(reading: &Reading<'_>, precision: Precision) -> String {
     match reading {
-        Reading::Number(_) | Reading::Level(..) | Reading::Vector(_) => spoken(reading, precision),
+        Reading::Number(_) | Reading::Bool(_) | Reading::Int(_) | Reading::Level(..) | Reading::Vector(_) => {
+            spoken(reading, precision)
+        }
         Reading::Record(_) => format!("{{{}}}", spoken(reading, precision)),
-        Reading::List(_) => format!("[{}]", parts(reading, precision).join(" ")),
+        Reading::List(items) => {
+            format!("[{}]", items.iter().map(|item| inner(item, precision)).collect::<Vec<_>>().join(" "))
+        }
     }
 }
 
@@ -80,7 +88,7 @@ mod tests {
         assert_eq!(sentence(&number, &[1.0 / 3.0], Precision::F64), "0.3333333333333333");
         assert_eq!(sentence(&vector, &[1.0, 0.5], Precision::F32), "(1, 0.5)");
         assert_eq!(sentence(&Output::Enumeration(levels.clone()), &[1.0], Precision::F32), "yes");
-        let list = Output::List { of: levels, max: 3 };
+        let list = Output::List { of: Box::new(Output::Enumeration(levels)), max: 3 };
         assert_eq!(sentence(&list, &[2.0, 1.0, 0.0, 0.0], Precision::F32), "yes no");
         assert_eq!(sentence(&list, &[0.0; 4], Precision::F32), "an empty list");
         assert_eq!(words(&list, &[0.0; 4], Precision::F32), [""; 0]);
@@ -92,6 +100,11 @@ mod tests {
         assert_eq!(sentence(&both, &values, Precision::F32), "edges = [yes no], at = (0.5, 1)");
         assert_eq!(words(&both, &values, Precision::F32), ["yes", "no", "0.5", "1"]);
         assert_eq!(sentence(&both, &[0.0; 6], Precision::F32), "edges = [], at = (0, 0)");
+        let loops = Output::List { of: Box::new(list.clone()), max: 2 };
+        let values = [2.0, 1.0, 1.0, 0.0, 0.0, 2.0, 0.0, 1.0, 0.0];
+        assert_eq!(sentence(&loops, &values, Precision::F32), "[yes] [no yes]");
+        let counted = record([("lit", &Output::Bool), ("turns", &Output::Int(-1, 1))]);
+        assert_eq!(sentence(&counted, &[1.0, -1.0], Precision::F32), "lit = true, turns = -1");
         let nested = record([("n", &number), ("both", &both)]);
         let values = [7.0, 1.0, 1.0, 0.0, 0.0, 0.5, 1.0];
         assert_eq!(sentence(&nested, &values, Precision::F32), "n = 7, both = {edges = [yes], at = (0.5, 1)}");

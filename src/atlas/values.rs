@@ -102,6 +102,8 @@ pub(super) fn colour(reading: &Reading<'_>, scale: &Scale) -> [u8; 3] {
     match reading {
         Reading::Number(value) => [grey(*value); 3],
         Reading::Vector(values) => [0, 1, 2].map(|channel| values.get(channel).map_or(0, |value| grey(*value))),
+        Reading::Bool(value) => LEVELS[usize::from(*value)],
+        Reading::Int(value) => LEVELS[value.rem_euclid(LEVELS.len() as i64) as usize],
         Reading::Level(index, _) => LEVELS[index % LEVELS.len()],
         Reading::List(items) => LEVELS[items.len() % LEVELS.len()],
         Reading::Record(fields) => fields.first().map_or([0; 3], |(_, first)| colour(first, scale)),

@@ -85,11 +85,32 @@ impl<'p> Writer<'p> {
                 Precision::F32 => write!(self.out, "{}", *value as f32),
                 Precision::F64 => write!(self.out, "{value}"),
             },
+            Reading::Bool(value) => write!(self.out, "{value}"),
+            Reading::Int(value) => write!(self.out, "{value}"),
             Reading::Level(_, name) => self.out.write_all(name.as_bytes()),
             Reading::Vector(values) => self.separated(",", values, |me, value| me.cells(&Reading::Number(*value))),
             Reading::Record(fields) => self.separated(",", fields, |me, (_, field)| me.cells(field)),
-            Reading::List(items) => self.separated(" ", items, |me, item| me.cells(item)),
+            Reading::List(items) => self.separated(" ", items, |me, item| me.item(item)),
         }
+    }
+
+    /// An item of a list, which is one cell: numbers and items of an item are held together.
+    fn item(&mut self, item: &Reading<'_>) -> io::Result<()> {
+        match item {
+            Reading::Number(_) | Reading::Bool(_) | Reading::Int(_) | Reading::Level(..) => self.cells(item),
+            Reading::Vector(numbers) => {
+                let numbers: Vec<Reading<'_>> = numbers.iter().map(|number| Reading::Number(*number)).collect();
+                self.enclosed(&numbers)
+            }
+            Reading::List(items) => self.enclosed(items),
+            Reading::Record(fields) => self.separated(" ", fields, |me, (_, field)| me.item(field)),
+        }
+    }
+
+    fn enclosed(&mut self, items: &[Reading<'_>]) -> io::Result<()> {
+        self.out.write_all(b"[")?;
+        self.separated(" ", items, |me, item| me.item(item))?;
+        self.out.write_all(b"]")
     }
 
     fn separated<T>(
@@ -111,7 +132,12 @@ impl<'p> Writer<'p> {
         let value = match &self.program.output.read(values) {
             // A key for each field, as there are columns for each in CSV.
             Reading::Record(fields) => self.fields(fields),
-            other @ (Reading::Number(_) | Reading::Level(..) | Reading::Vector(_) | Reading::List(_)) => {
+            other @ (Reading::Number(_)
+            | Reading::Bool(_)
+            | Reading::Int(_)
+            | Reading::Level(..)
+            | Reading::Vector(_)
+            | Reading::List(_)) => {
                 format!("\"value\":{}", self.json(other))
             }
         };
@@ -131,6 +157,8 @@ impl<'p> Writer<'p> {
             // infinities and no NaN; those are strings.
             Reading::Number(value) if value.is_finite() => self.precision.show(*value),
             Reading::Number(value) => format!("\"{}\"", self.precision.show(*value)),
+            Reading::Bool(value) => value.to_string(),
+            Reading::Int(value) => value.to_string(),
             Reading::Level(_, name) => json!(name).to_string(),
             Reading::Vector(values) => {
                 let numbers = values.iter().map(|value| self.json(&Reading::Number(*value)));

@@ -101,7 +101,7 @@ registry! {
     FUNCTION_SHAPE = "U0214", Failure, Error, "a function or helper whose fields do not make one; a table with cases and functions";
     PARAMETER = "U0215", Failure, Error, "a parameter that is not declared, not known, or not given";
     NO_FUNCTION = "U0216", Failure, Error, "a table of functions of which none was named, or one that it does not have";
-    OUTPUTS = "U0217", Failure, Error, "a function that returns something else than numbers";
+    OUTPUTS = "U0217", Failure, Error, "a function that returns what no function can";
     OUTSIDE_DOMAIN = "U0218", Failure, Error, "a row of data outside of the domain of the function";
     LIMIT_BROKEN = "U0219", Finding, Error, "a function is not what a limit claims";
     BUDGET_EXCEEDED = "U0220", Finding, Error, "a function is less accurate than it claims";

@@ -9,6 +9,8 @@ pub enum Scalar {
     Float,
     /// A code, `u32`: the index of a level, a length.
     Uint,
+    /// A whole number, `i32`, within 2^24 of zero.
+    Int,
     /// True or false; a component of a result is then 1 or 0.
     Bool,
 }
@@ -19,6 +21,7 @@ impl Scalar {
         match self {
             Scalar::Float => f32::from_bits(word),
             Scalar::Uint => word as f32,
+            Scalar::Int => word.cast_signed() as f32,
             Scalar::Bool => f32::from(u8::from(word != 0)),
         }
     }
@@ -31,8 +34,8 @@ pub enum DataType {
     Scalar(Scalar),
     /// Two to four numbers.
     Vector(usize),
-    /// Components of one type, by their index.
-    Array(Scalar, usize),
+    /// Scalars or vectors of one type, by their index.
+    Array(Box<DataType>, usize),
     /// Fields with names.
     Structure(Vec<(String, DataType)>),
 }
@@ -72,17 +75,27 @@ impl DataType {
                     scalar: Scalar::Float,
                 }))
             }
-            DataType::Array(scalar, length) => all.extend((0..*length).map(|index| Component {
-                name: format!("{named}_{index}"),
-                place: format!("{place}[{index}]"),
-                scalar: *scalar,
-            })),
+            DataType::Array(of, length) => {
+                for index in 0..*length {
+                    of.collect(&format!("{named}_{index}"), &format!("{place}[{index}]"), all);
+                }
+            }
             DataType::Structure(fields) => {
                 for (field, of) in fields {
                     let name = if name.is_empty() { field.clone() } else { format!("{name}_{field}") };
                     of.collect(&name, &format!("{place}.{field}"), all);
                 }
             }
+        }
+    }
+
+    /// The type of the last component: that of all, but in a structure.
+    pub(crate) fn leaf(&self) -> Scalar {
+        match self {
+            DataType::Scalar(scalar) => *scalar,
+            DataType::Vector(_) => Scalar::Float,
+            DataType::Array(of, _) => of.leaf(),
+            DataType::Structure(fields) => fields.last().map_or(Scalar::Float, |(_, of)| of.leaf()),
         }
     }
 
@@ -104,7 +117,7 @@ mod tests {
     fn components_have_names_and_places() {
         let inner = DataType::Structure(vec![
             ("c".to_owned(), DataType::Scalar(Scalar::Bool)),
-            ("d".to_owned(), DataType::Array(Scalar::Uint, 2)),
+            ("d".to_owned(), DataType::Array(Box::new(DataType::Scalar(Scalar::Uint)), 2)),
         ]);
         let outer =
             DataType::Structure(vec![("a".to_owned(), DataType::Vector(2)), ("b".to_owned(), inner)]).components();

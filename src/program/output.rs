@@ -16,6 +16,10 @@ pub type Output = crate::table::Output<Levels>;
 pub enum Reading<'o> {
     /// A number.
     Number(f64),
+    /// True or false.
+    Bool(bool),
+    /// A whole number.
+    Int(i64),
     /// A level, by its index and its name; `?` where there is no such level.
     Level(usize, &'o str),
     /// The numbers of a vector.
@@ -26,18 +30,31 @@ pub enum Reading<'o> {
     List(Vec<Reading<'o>>),
 }
 
-impl Output {
+impl<Set> crate::table::Output<Set> {
     /// The type in generated code.
     pub fn data_type(&self) -> DataType {
+        use crate::table::Output;
         match self {
             Output::Number(_) => DataType::Scalar(Scalar::Float),
             Output::Vector(size, _) => DataType::Vector(*size),
+            Output::Bool => DataType::Scalar(Scalar::Bool),
+            Output::Int(..) => DataType::Scalar(Scalar::Int),
             Output::Record(fields) => {
                 DataType::Structure(fields.iter().map(|(name, of)| (name.clone(), of.data_type())).collect())
             }
             Output::Enumeration(_) => DataType::Scalar(Scalar::Uint),
-            // The length, and the items followed by zeros.
-            Output::List { max, .. } => DataType::Array(Scalar::Uint, max + 1),
+            Output::List { of, max } => {
+                // Codes stand behind their length, and a list after the other, each filled up with zeros.
+                let array = |of: DataType, length| DataType::Array(Box::new(of), length);
+                let item = of.data_type();
+                match item.leaf() {
+                    scalar @ (Scalar::Uint | Scalar::Int) => array(DataType::Scalar(scalar), self.size()),
+                    Scalar::Float | Scalar::Bool => DataType::Structure(vec![
+                        ("count".to_owned(), DataType::Scalar(Scalar::Uint)),
+                        ("items".to_owned(), array(item, *max)),
+                    ]),
+                }
+            }
         }
     }
 
@@ -60,9 +77,12 @@ impl Output {
     }
 
     fn columns_of(&self, name: &str, all: &mut Vec<String>) {
+        use crate::table::Output;
         let named = if name.is_empty() { "value" } else { name };
         match self {
-            Output::Number(_) | Output::Enumeration(_) | Output::List { .. } => all.push(named.to_owned()),
+            Output::Number(_) | Output::Bool | Output::Int(..) | Output::Enumeration(_) | Output::List { .. } => {
+                all.push(named.to_owned());
+            }
             Output::Vector(size, _) => {
                 all.extend(DataType::LETTERS.iter().take(*size).map(|letter| format!("{named}_{letter}")));
             }
@@ -74,7 +94,9 @@ impl Output {
             }
         }
     }
+}
 
+impl Output {
     /// Reads the components of a result, one number each.
     pub fn read<'o>(&'o self, values: &[f64]) -> Reading<'o> {
         self.read_from(&mut values.iter().copied())
@@ -88,11 +110,14 @@ impl Output {
             Output::Record(fields) => {
                 Reading::Record(fields.iter().map(|(name, of)| (name.as_str(), of.read_from(values))).collect())
             }
+            Output::Bool => Reading::Bool(next() != 0.0),
+            Output::Int(..) => Reading::Int(next() as i64),
             Output::Enumeration(levels) => level(levels, next()),
             Output::List { of, max } => {
                 let length = next() as usize;
-                let items: Vec<f64> = (0..*max).map(|_| next()).collect();
-                Reading::List(items.into_iter().take(length).map(|item| level(of, item)).collect())
+                // What fills the list up is read as well, for what comes after it.
+                let items: Vec<Reading<'o>> = (0..*max).map(|_| of.read_from(values)).collect();
+                Reading::List(items.into_iter().take(length).collect())
             }
         }
     }
@@ -102,6 +127,8 @@ impl Output {
         match self {
             Output::Number(_) => "a number".to_owned(),
             Output::Vector(size, _) => format!("a vector of {size}"),
+            Output::Bool => "a condition".to_owned(),
+            Output::Int(from, to) => format!("a whole number from {from} to {to}"),
             Output::Record(fields) => {
                 format!("a record of {}", fields.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "))
             }
@@ -127,7 +154,7 @@ mod tests {
 
     /// A record with a field of every kind, a record among them.
     fn everything() -> Output {
-        let list = Output::List { of: levels(), max: 3 };
+        let list = Output::List { of: Box::new(Output::Enumeration(levels())), max: 3 };
         let inner = Output::Record(vec![("list".to_owned(), list), ("number".to_owned(), Output::Number(None))]);
         Output::Record(vec![
             ("level".to_owned(), Output::Enumeration(levels())),

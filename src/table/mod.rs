@@ -20,11 +20,12 @@ mod read;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::diag::{Failure, Source, Span, Spanned};
+use crate::diag::{Diagnostic, Failure, Source, Span, Spanned};
 use crate::text::file::{read_text, shown};
 use expr::Expr;
 
 pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
+pub(crate) use output::MAX_FIELDS;
 pub use output::Output;
 pub use parse::MAX_DEPTH;
 
@@ -39,6 +40,8 @@ pub const LANGUAGE: u32 = 2;
 pub struct Table {
     /// The file it was read from.
     pub source: Arc<Source>,
+    /// The version of the language that it is written in.
+    pub language: Spanned<u32>,
     /// Name of the table and prefix of everything generated from it.
     pub name: Spanned<String>,
     /// The title of the table.
@@ -298,6 +301,11 @@ pub struct Example {
 }
 
 impl Table {
+    /// Refuses what a later version of the language brings.
+    pub(crate) fn since(&self, version: u32, span: Span, what: &str) -> Result<(), Diagnostic> {
+        read::since(version, &self.language, span, what)
+    }
+
     /// Reads a table from a file.
     ///
     /// # Errors

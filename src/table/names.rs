@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use crate::diag::{Diagnostic, Span, codes};
+use crate::diag::{Diagnostic, Span, Spanned, codes};
 
 /// Longest accepted name, in characters.
 const MAX_LENGTH: usize = 64;
@@ -54,6 +54,24 @@ pub(crate) fn check_inner(name: &str, what: &str, span: Span) -> Result<(), Diag
         return Err(malformed(name, what, span));
     }
     well_formed(name, what, span)
+}
+
+/// Checks the name of a field of a record, which differs from those before it.
+pub(crate) fn check_field<'n>(
+    name: &Spanned<String>,
+    mut before: impl Iterator<Item = &'n Spanned<String>>,
+) -> Result<(), Diagnostic> {
+    check(&name.value, "a field of a record", name.span)?;
+    if name.value.contains('.') {
+        return Err(Diagnostic::error(codes::BAD_NAME, "the name of a field contains no dot")
+            .at(name.span, "dots group inputs"));
+    }
+    match before.find(|other| other.value == name.value) {
+        None => Ok(()),
+        Some(first) => Err(Diagnostic::error(codes::DUPLICATE, format!("`{}` is given twice", name.value))
+            .at(name.span, "again")
+            .at(first.span, "first here")),
+    }
 }
 
 /// Words of the expression language that can never be read as the name of a level.

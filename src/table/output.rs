@@ -6,11 +6,18 @@
 
 use serde::Deserialize;
 
-use crate::diag::{Diagnostic, Spanned, codes};
-use crate::text::raw::{Raw, Reader};
+use super::names;
+use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::text::raw::{Raw, RawMap, Reader, Shape};
 
 /// Most items of a list.
 const MAX_ITEMS: usize = 64;
+/// Most fields of a record.
+pub(crate) const MAX_FIELDS: usize = 32;
+/// Most components of a result: what its items and fields have at most, and the lengths of lists.
+const MAX_COMPONENTS: usize = 512;
+/// Whole numbers of a result are at most this far from zero: `f32` holds them exactly.
+const MAX_WHOLE: i64 = 1 << 24;
 
 /// The kind of a result. `Set` is a level set, as far as it is known.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,20 +26,47 @@ pub enum Output<Set> {
     Number(Option<(f64, f64)>),
     /// Two to four numbers, each clamped like a single one.
     Vector(usize, Option<(f64, f64)>),
-    /// Several results, each with a name; of functions only.
+    /// True or false.
+    Bool,
+    /// A whole number from the first to the second, both within 2^24 of zero.
+    Int(i32, i32),
+    /// One to 32 results, each with a name.
     Record(Vec<(String, Output<Set>)>),
     /// One level of a set.
     Enumeration(Set),
-    /// At most `max` levels of a set, in order.
+    /// At most `max` results of one kind, in order. Items are no records, and where they are
+    /// lists, these hold levels or whole numbers.
     List {
-        /// The set.
-        of: Set,
+        /// The kind of the items.
+        of: Box<Output<Set>>,
         /// Most items, 1 to 64.
         max: usize,
     },
 }
 
+/// An output as it is declared, and the place and name of what came with version 2 of the language.
+pub(super) type DeclaredOutput = (Spanned<Output<Spanned<String>>>, Option<(Span, &'static str)>);
+
 impl<Set> Output<Set> {
+    /// The number of components.
+    pub fn size(&self) -> usize {
+        match self {
+            Output::Number(_) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => 1,
+            Output::Vector(size, _) => *size,
+            Output::Record(fields) => fields.iter().map(|(_, of)| of.size()).sum(),
+            Output::List { of, max } => 1 + max * of.size(),
+        }
+    }
+
+    /// Returns whether a list occurs in it.
+    pub(crate) fn has_list(&self) -> bool {
+        match self {
+            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => false,
+            Output::Record(fields) => fields.iter().any(|(_, of)| of.has_list()),
+            Output::List { .. } => true,
+        }
+    }
+
     /// The same kind with its level sets said in another way.
     ///
     /// # Errors
@@ -41,12 +75,14 @@ impl<Set> Output<Set> {
         Ok(match self {
             Output::Number(clamp) => Output::Number(*clamp),
             Output::Vector(size, clamp) => Output::Vector(*size, *clamp),
+            Output::Bool => Output::Bool,
+            Output::Int(from, to) => Output::Int(*from, *to),
             Output::Record(fields) => {
                 let field = |(name, of): &(String, Self)| Ok((name.clone(), of.try_map(set)?));
                 Output::Record(fields.iter().map(field).collect::<Result<_, E>>()?)
             }
             Output::Enumeration(of) => Output::Enumeration(set(of)?),
-            Output::List { of, max } => Output::List { of: set(of)?, max: *max },
+            Output::List { of, max } => Output::List { of: Box::new(of.try_map(set)?), max: *max },
         })
     }
 }
@@ -63,6 +99,11 @@ enum OutputRon<'a> {
         #[serde(default)]
         clamp: Option<(f64, f64)>,
     },
+    Bool {},
+    Int {
+        from: i64,
+        to: i64,
+    },
     Enumeration {
         #[serde(borrow)]
         of: Raw<'a>,
@@ -71,29 +112,130 @@ enum OutputRon<'a> {
         of: Raw<'a>,
         max: usize,
     },
+    Record(RawMap<'a>),
+}
+
+/// The place of an output within another.
+#[derive(Clone, Copy, PartialEq)]
+enum Within {
+    Nothing,
+    Record,
+    List,
+    ListOfLists,
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn output(&self, raw: Raw<'a>) -> Result<Spanned<Output<Spanned<String>>>, Diagnostic> {
+    /// The declared output, and the first thing in it that came with version 2 of the language.
+    pub(super) fn output(&self, raw: Raw<'a>) -> Result<DeclaredOutput, Diagnostic> {
+        let mut later = None;
+        let output = self.output_within(raw, Within::Nothing, &mut later)?;
+        let components = output.size();
+        if components > MAX_COMPONENTS {
+            let message = format!("a result of {components} components");
+            return Err(Diagnostic::error(codes::DOMAIN, message)
+                .at(self.span(raw), format!("at most {MAX_COMPONENTS}"))
+                .help("a list has as many components as its items have at most, and one for its length"));
+        }
+        Ok((Spanned::new(self.span(raw), output), later))
+    }
+
+    fn output_within(
+        &self,
+        raw: Raw<'a>,
+        within: Within,
+        later: &mut Option<(Span, &'static str)>,
+    ) -> Result<Output<Spanned<String>>, Diagnostic> {
         let span = self.span(raw);
-        let domain = |message: &str, label: &str| Err(Diagnostic::error(codes::DOMAIN, message).at(span, label));
-        let (size_ok, clamp, output) = match self.get::<OutputRon<'a>>(raw)? {
-            OutputRon::Number { clamp } => (true, clamp, Output::Number(clamp)),
-            OutputRon::Vector { size, clamp } => ((2..=4).contains(&size), clamp, Output::Vector(size, clamp)),
-            OutputRon::Enumeration { of } => (true, None, Output::Enumeration(self.word(of)?)),
+        let domain = |message: &str, label: String| Err(Diagnostic::error(codes::DOMAIN, message).at(span, label));
+        let mut since = |what| {
+            later.get_or_insert((span, what));
+        };
+        let (clamp, output) = match self.get::<OutputRon<'a>>(raw)? {
+            OutputRon::Number { clamp } => (clamp, Output::Number(clamp)),
+            OutputRon::Vector { size, clamp } if (2..=4).contains(&size) => (clamp, Output::Vector(size, clamp)),
+            OutputRon::Vector { .. } => {
+                return domain("impossible size of the output", "a vector has 2 to 4 components".to_owned());
+            }
+            OutputRon::Bool {} => {
+                since("`Bool` as an output");
+                (None, Output::Bool)
+            }
+            OutputRon::Int { from, to } => {
+                since("`Int` as an output");
+                match (i32::try_from(from), i32::try_from(to)) {
+                    (Ok(from), Ok(to)) if from < to && i64::from(from) >= -MAX_WHOLE && i64::from(to) <= MAX_WHOLE => {
+                        (None, Output::Int(from, to))
+                    }
+                    _ => {
+                        return domain(
+                            "impossible range of whole numbers",
+                            format!("`from` is less than `to`, and both are within {MAX_WHOLE} of zero"),
+                        );
+                    }
+                }
+            }
+            OutputRon::Enumeration { of } => (None, Output::Enumeration(self.word(of)?)),
+            OutputRon::List { max, .. } if !(1..=MAX_ITEMS).contains(&max) => {
+                return domain("impossible size of the output", format!("a list has 1 to {MAX_ITEMS} items at most"));
+            }
+            OutputRon::List { .. } if within == Within::ListOfLists => {
+                return domain("lists are nested too deeply", "a list in a list in a list".to_owned());
+            }
             OutputRon::List { of, max } => {
-                ((1..=MAX_ITEMS).contains(&max), None, Output::List { of: self.word(of)?, max })
+                let of = match self.shape(of) {
+                    Shape::Variant(_) => {
+                        since("a list of other things than levels");
+                        let inside = if within == Within::List { Within::ListOfLists } else { Within::List };
+                        self.output_within(of, inside, later)?
+                    }
+                    Shape::Text | Shape::Map | Shape::List | Shape::Tuple | Shape::Word(_) | Shape::Other => {
+                        Output::Enumeration(self.word(of)?)
+                    }
+                };
+                (None, Output::List { of: Box::new(of), max })
+            }
+            OutputRon::Record(_) if within != Within::Nothing => {
+                return Err(Diagnostic::error(codes::DOMAIN, "a record stands in a record or a list")
+                    .at(span, "only the whole result is a record")
+                    .help("give the parts of this record a field each, or make a list of each of its fields"));
+            }
+            OutputRon::Record(fields) => {
+                since("`Record` as an output");
+                (None, self.fields(&fields, span, later)?)
             }
         };
-        if !size_ok {
-            return domain(
-                "impossible size of the output",
-                &format!("a vector has 2 to 4 components, a list at most {MAX_ITEMS} items"),
-            );
-        }
         if clamp.is_some_and(|(lo, hi)| !(lo.is_finite() && hi.is_finite() && lo <= hi)) {
-            return domain("`clamp` needs two finite bounds in ascending order", "in this output");
+            return domain("`clamp` needs two finite bounds in ascending order", "in this output".to_owned());
         }
-        Ok(Spanned::new(span, output))
+        match (within, &output) {
+            (Within::ListOfLists, Output::Number(_) | Output::Vector(..) | Output::Bool) => {
+                Err(Diagnostic::error(codes::DOMAIN, "a list of lists holds levels or whole numbers")
+                    .at(span, "of another kind")
+                    .help("expected the name of a level set, or `Int(from: ..., to: ...)`"))
+            }
+            _ => Ok(output),
+        }
+    }
+
+    /// The fields of a record, in the order written.
+    fn fields(
+        &self,
+        fields: &RawMap<'a>,
+        span: Span,
+        later: &mut Option<(Span, &'static str)>,
+    ) -> Result<Output<Spanned<String>>, Diagnostic> {
+        if fields.0.is_empty() || fields.0.len() > MAX_FIELDS {
+            let message = format!("a record of {} results", fields.0.len());
+            return Err(Diagnostic::error(codes::DOMAIN, message)
+                .at(span, format!("expected 1 to {MAX_FIELDS}"))
+                .help("write the results with their names: Record({\"angle\": Number(), \"side\": Enumeration(of: side)})"));
+        }
+        let mut read: Vec<(Spanned<String>, Output<Spanned<String>>)> = Vec::new();
+        for (name, of) in &fields.0 {
+            let name = self.word(*name)?;
+            names::check_field(&name, read.iter().map(|(other, _)| other))?;
+            read.push((name, self.output_within(*of, Within::Record, later)?));
+        }
+        Ok(Output::Record(read.into_iter().map(|(name, of)| (name.value, of)).collect()))
     }
 }

@@ -224,7 +224,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
         errors.take(since(2, &language, read.span(*group), "`groups`"));
     }
     let name = errors.take(read.spanned::<String>(ron.name));
-    let decision = errors.take(read.decision(&ron));
+    let decision = errors.take(read.decision(&ron, &language));
     let levels = errors.each(ron.levels.0, |(n, v)| Ok((read.word(n)?, read.levels(&read.get(v)?)?)));
     let inputs = errors.each(ron.inputs.0, |(n, v)| read.input(n, v));
     let groups = errors.each(ron.groups.0, |(n, v)| read.group(n, v));
@@ -242,6 +242,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     match (name, decision) {
         (Some(name), Some(Decision { hit_policy, output, default })) if errors.0.is_empty() => Ok(Table {
             source: source.clone(),
+            language,
             name,
             title: ron.title,
             origin: ron.source,
@@ -269,7 +270,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
 }
 
 /// Refuses what a later version of the language brings.
-fn since(version: u32, language: &Spanned<u32>, span: Span, what: &str) -> Result<()> {
+pub(super) fn since(version: u32, language: &Spanned<u32>, span: Span, what: &str) -> Result<()> {
     if language.value >= version {
         return Ok(());
     }
@@ -301,15 +302,19 @@ struct Decision {
 impl<'a> Reader<'a> {
     /// A table has cases, with what belongs to them, or functions. Those that only have functions
     /// get what stands for nothing.
-    fn decision(&self, ron: &TableRon<'a>) -> Result<Decision> {
+    fn decision(&self, ron: &TableRon<'a>, language: &Spanned<u32>) -> Result<Decision> {
         let missing = |field: &str| {
             Diagnostic::error(codes::STRUCTURE, format!("the field `{field}` is missing in `Table`"))
                 .at(self.first_word(), "here")
         };
         let Some(functions) = &ron.functions else {
+            let (output, later) = self.output(ron.output.ok_or_else(|| missing("output"))?)?;
+            if let Some((place, what)) = later {
+                since(2, language, place, what)?;
+            }
             return Ok(Decision {
                 hit_policy: self.hit_policy(ron.hit_policy.ok_or_else(|| missing("hit_policy"))?)?,
-                output: self.output(ron.output.ok_or_else(|| missing("output"))?)?,
+                output,
                 default: {
                     ron.cases.as_ref().ok_or_else(|| missing("cases"))?;
                     self.expr(ron.default.ok_or_else(|| missing("default"))?)?

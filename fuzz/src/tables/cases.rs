@@ -48,7 +48,7 @@ pub(super) fn table(choices: &mut Choices<'_>) -> Written {
 
 impl Maker<'_, '_> {
     fn draft(&mut self) -> Draft {
-        let mut list: Vec<Field> = vec![("language", "1".to_owned()), ("name", "\"t\"".to_owned())];
+        let mut list: Vec<Field> = vec![("name", "\"t\"".to_owned())];
         self.put(&mut list, "levels", Self::level_sets);
         let inputs = self.declare_inputs(true);
         list.push(("inputs", inputs));
@@ -66,6 +66,9 @@ impl Maker<'_, '_> {
         }
         self.put(&mut list, "names", |maker| maker.names(3));
         let output = self.output();
+        let later =
+            ["Record(", "Bool(", "Int(", "List(of: Vector", "List(of: List"].iter().any(|word| output.contains(word));
+        list.push(("language", (if later || self.choices.either() { "2" } else { "1" }).to_owned()));
         list.push(("output", output));
         let mut symmetries = Vec::new();
         if self.choices.either() {
@@ -104,33 +107,65 @@ impl Maker<'_, '_> {
     }
 
     fn output(&mut self) -> String {
+        let (ty, text) = match self.choices.one_in(4) {
+            false => self.simple_output(&[8, 2, 2, 2, 0, 0]),
+            true => {
+                let fields: Vec<(String, (Type, String))> = (0..self.choices.within(1, 4))
+                    .map(|_| (self.plain_name("f"), self.simple_output(&[3, 1, 2, 2, 2, 2])))
+                    .collect();
+                let texts: Vec<(String, String)> =
+                    fields.iter().map(|(name, (_, text))| (name.clone(), text.clone())).collect();
+                let types = fields.into_iter().map(|(name, (ty, _))| (name, ty)).collect();
+                (Type::Record(types), format!("Record({})", map(&texts)))
+            }
+        };
+        self.one_number = ty == Type::Number;
+        self.output = ty;
+        text
+    }
+
+    /// A number, vector, level, list, condition or whole number, with these weights.
+    fn simple_output(&mut self, weights: &[usize; 6]) -> (Type, String) {
         let clamp = match self.choices.one_in(3) {
             true => Some(*self.choices.pick(&["(0, 1)", "(-1, 1)", "(0.1, 0.7)", "(-2, 1e6)", "(0.25, 0.5)"])),
             false => None,
         };
         let sets: Vec<usize> = (0..self.sets.len()).filter(|set| self.sets[*set].name.is_some()).collect();
-        let levels = if sets.is_empty() { 0 } else { 1 };
-        match self.choices.weighted([8, 2, levels, levels].into_iter()) {
-            0 => {
-                self.output = Type::Number;
-                format!("Number({})", clamp.map_or(String::new(), |clamp| format!("clamp: {clamp}")))
-            }
+        let mut weights = *weights;
+        if sets.is_empty() {
+            (weights[2], weights[3]) = (0, 0);
+        }
+        match self.choices.weighted(weights.into_iter()) {
+            0 => (Type::Number, format!("Number({})", clamp.map_or(String::new(), |clamp| format!("clamp: {clamp}")))),
             1 => {
                 let size = self.choices.within(2, 4);
-                (self.output, self.one_number) = (Type::Vector(size), false);
-                format!("Vector(size: {size}{})", clamp.map_or(String::new(), |clamp| format!(", clamp: {clamp}")))
+                let clamp = clamp.map_or(String::new(), |clamp| format!(", clamp: {clamp}"));
+                (Type::Vector(size), format!("Vector(size: {size}{clamp})"))
+            }
+            4 => (Type::Condition, "Bool()".to_owned()),
+            5 => {
+                let from = self.choices.below(9) as i32 - 4;
+                let to = from + self.choices.within(1, 5) as i32;
+                (Type::Whole(from, to), format!("Int(from: {from}, to: {to})"))
             }
             form => {
                 let set = *self.choices.pick(&sets);
                 let of = self.sets[set].name.clone().unwrap_or_default();
-                self.one_number = false;
                 if form == 2 {
-                    self.output = Type::Level(set);
-                    return format!("Enumeration(of: \"{of}\")");
+                    return (Type::Level(set), format!("Enumeration(of: \"{of}\")"));
                 }
                 let most = self.choices.within(1, 4);
-                self.output = Type::List(set, most);
-                format!("List(of: \"{of}\", max: {most})")
+                let list =
+                    |ty: Type, of: String| (Type::List(Box::new(ty), most), format!("List(of: {of}, max: {most})"));
+                match self.choices.below(5) {
+                    0 => list(Type::Vector(2), "Vector(size: 2)".to_owned()),
+                    1 => list(Type::Whole(-2, 1), "Int(from: -2, to: 1)".to_owned()),
+                    2 => {
+                        let inner = Type::List(Box::new(Type::Level(set)), 2);
+                        list(inner, format!("List(of: \"{of}\", max: 2)"))
+                    }
+                    _ => list(Type::Level(set), format!("\"{of}\"")),
+                }
             }
         }
     }

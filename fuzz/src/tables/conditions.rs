@@ -62,7 +62,9 @@ fn level(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> Op
         .iter()
         .filter_map(|visible| match visible.ty {
             Type::Level(set) => Some((visible.text.clone(), set)),
-            Type::Number | Type::Condition | Type::Vector(_) | Type::Record(_) | Type::List(..) => None,
+            Type::Number | Type::Condition | Type::Whole(..) | Type::Vector(_) | Type::Record(_) | Type::List(..) => {
+                None
+            }
         })
         .collect();
     if levels.is_empty() {

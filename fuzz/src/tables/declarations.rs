@@ -216,7 +216,7 @@ impl Maker<'_, '_> {
                     0..=4 => Type::Number,
                     5 => Type::Vector(self.choices.within(2, 4)),
                     6 => Type::Condition,
-                    _ => Type::Record(vec!["area".to_owned(), "ss".to_owned()]),
+                    _ => Type::numbers(&["area", "ss"]),
                 };
                 parameters.push((self.plain_name("p"), ty));
             }
@@ -226,7 +226,7 @@ impl Maker<'_, '_> {
             let gives = match self.choices.below(5) {
                 0..=2 => Type::Number,
                 3 => Type::Vector(self.choices.within(2, 4)),
-                _ => Type::Record(vec!["area".to_owned(), "ss".to_owned()]),
+                _ => Type::numbers(&["area", "ss"]),
             };
             let value = match self.choices.one_in(3) {
                 true => {

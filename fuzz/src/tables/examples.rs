@@ -67,21 +67,26 @@ fn written(program: &Program, values: &[f64]) -> Option<String> {
     if values.iter().any(|value| !value.is_finite()) {
         return None;
     }
-    let item = |reading: &Reading<'_>| match reading {
-        Reading::Number(number) => Some(plain(*number)),
-        Reading::Level(_, name) => Some((*name).to_owned()),
-        Reading::Vector(_) | Reading::Record(_) | Reading::List(_) => None,
-    };
-    match program.output.read(values) {
+    Some(format!("\"{}\"", said(&program.output.read(values))))
+}
+
+/// A result as an expression.
+fn said(reading: &Reading<'_>) -> String {
+    let all = |items: &[Reading<'_>]| items.iter().map(said).collect::<Vec<_>>().join(", ");
+    match reading {
+        Reading::Number(number) => plain(*number),
+        Reading::Bool(value) => value.to_string(),
+        Reading::Int(value) => value.to_string(),
+        Reading::Level(_, name) => (*name).to_owned(),
         Reading::Vector(parts) => {
             let parts: Vec<String> = parts.iter().map(|value| plain(*value)).collect();
-            Some(format!("\"vec{}({})\"", parts.len(), parts.join(", ")))
+            format!("vec{}({})", parts.len(), parts.join(", "))
         }
-        Reading::List(items) => {
-            Some(format!("\"[{}]\"", items.iter().map(item).collect::<Option<Vec<_>>>()?.join(", ")))
+        Reading::List(items) => format!("[{}]", all(items)),
+        Reading::Record(fields) => {
+            let fields: Vec<String> = fields.iter().map(|(name, field)| format!("{name}: {}", said(field))).collect();
+            format!("{{{}}}", fields.join(", "))
         }
-        Reading::Record(_) => None,
-        one @ (Reading::Number(_) | Reading::Level(..)) => Some(format!("\"{}\"", item(&one)?)),
     }
 }
 

@@ -10,10 +10,28 @@ pub(super) enum Type {
     /// A level of the set with this number.
     Level(usize),
     Vector(usize),
-    /// Numbers with these names.
-    Record(Vec<String>),
-    /// At most so many levels of a set.
-    List(usize, usize),
+    /// A whole number of a range.
+    Whole(i32, i32),
+    /// Values with names.
+    Record(Vec<(String, Type)>),
+    /// At most so many values of one type.
+    List(Box<Type>, usize),
+}
+
+impl Type {
+    /// A record of numbers.
+    pub(super) fn numbers(names: &[&str]) -> Self {
+        Type::Record(names.iter().map(|name| ((*name).to_owned(), Type::Number)).collect())
+    }
+
+    /// Returns whether it is calculated with, as numbers are.
+    pub(super) fn is_numeric(&self) -> bool {
+        match self {
+            Type::Number | Type::Vector(_) => true,
+            Type::Record(fields) => fields.iter().all(|(_, ty)| ty.is_numeric()),
+            Type::Condition | Type::Level(_) | Type::Whole(..) | Type::List(..) => false,
+        }
+    }
 }
 
 /// A text with the strength of what holds it together, by the grammar.
@@ -113,6 +131,7 @@ impl Maker<'_, '_> {
             Type::Level(_) => super::levels::ALL,
             Type::Vector(_) => super::vectors::ALL,
             Type::Record(_) => super::records::ALL,
+            Type::Whole(..) => super::levels::ALL,
             Type::List(..) => super::levels::LISTS,
         };
         let all = || own.iter().chain(ANY);
@@ -176,7 +195,10 @@ impl Maker<'_, '_> {
                 let parts: Vec<String> = (0..*size).map(|_| self.leaf(scope, &Type::Number).text).collect();
                 Piece::primary(format!("vec{size}({})", parts.join(", ")))
             }
-            Type::Record(names) => super::records::written(self, scope, names, 0),
+            Type::Whole(from, to) => {
+                Piece::new(PREFIX, (i64::from(*from) + self.choices.below((to - from + 1) as usize) as i64).to_string())
+            }
+            Type::Record(fields) => super::records::written(self, scope, fields, 0),
             Type::List(..) => super::levels::items(self, scope, ty, 0).unwrap_or_else(|| Piece::primary("[]")),
         }
     }

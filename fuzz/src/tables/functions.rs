@@ -74,7 +74,7 @@ impl Maker<'_, '_> {
         let gives = match self.choices.below(4) {
             0 | 1 => Type::Number,
             2 => Type::Vector(self.choices.within(2, 4)),
-            _ => Type::Record(vec!["exact".to_owned(), "close".to_owned()]),
+            _ => Type::numbers(&["exact", "close"]),
         };
         match self.choices.one_in(4) {
             false => list.push(("value", self.quoted(&scope, &gives, 3))),

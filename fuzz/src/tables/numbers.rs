@@ -155,14 +155,17 @@ fn of_record(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -
         .visible
         .iter()
         .filter_map(|v| match &v.ty {
-            Type::Record(names) => Some((v.text.clone(), names.clone())),
-            Type::Number | Type::Condition | Type::Level(_) | Type::Vector(_) | Type::List(..) => None,
+            Type::Record(fields) => Some((v.text.clone(), fields.iter().map(|(name, _)| name.clone()).collect())),
+            Type::Number | Type::Condition | Type::Level(_) | Type::Whole(..) | Type::Vector(_) | Type::List(..) => {
+                None
+            }
         })
         .collect();
     let (text, names) = match records.is_empty() {
         true => {
-            let names = vec!["area".to_owned(), "ss".to_owned()];
-            let record = super::records::written(maker, scope, &names, depth);
+            let names = ["area", "ss"].map(str::to_owned).to_vec();
+            let fields: Vec<(String, Type)> = names.iter().map(|name| (name.clone(), Type::Number)).collect();
+            let record = super::records::written(maker, scope, &fields, depth);
             (maker.held(record, PRIMARY, false), names)
         }
         false => maker.choices.pick(&records).clone(),

@@ -7,25 +7,24 @@ use super::expression::{Construct, OR, PRODUCT, Piece, SUM, Scope, Type};
 pub(super) const ALL: &[Construct] = &[(6, written_out), (2, infix)];
 
 /// `{a: x, b: y}`
-pub(super) fn written(maker: &mut Maker<'_, '_>, scope: &Scope, names: &[String], depth: usize) -> Piece {
+pub(super) fn written(maker: &mut Maker<'_, '_>, scope: &Scope, fields: &[(String, Type)], depth: usize) -> Piece {
     let parts: Vec<String> =
-        names.iter().map(|name| format!("{name}: {}", maker.operand(scope, &Type::Number, depth, OR))).collect();
+        fields.iter().map(|(name, ty)| format!("{name}: {}", maker.operand(scope, ty, depth, OR))).collect();
     Piece::primary(format!("{{{}}}", parts.join(", ")))
 }
 
-fn names(ty: &Type) -> Option<&[String]> {
-    match ty {
-        Type::Record(names) => Some(names),
-        Type::Number | Type::Condition | Type::Level(_) | Type::Vector(_) | Type::List(..) => None,
-    }
-}
-
 fn written_out(maker: &mut Maker<'_, '_>, scope: &Scope, ty: &Type, depth: usize) -> Option<Piece> {
-    Some(written(maker, scope, names(ty)?, depth))
+    match ty {
+        Type::Record(fields) => Some(written(maker, scope, fields, depth)),
+        Type::Number | Type::Condition | Type::Level(_) | Type::Whole(..) | Type::Vector(_) | Type::List(..) => None,
+    }
 }
 
 /// Records of the same names, or one and a number.
 fn infix(maker: &mut Maker<'_, '_>, scope: &Scope, ty: &Type, depth: usize) -> Option<Piece> {
+    if !ty.is_numeric() {
+        return None;
+    }
     let (symbol, strength) = *maker.choices.pick(&[("+", SUM), ("-", SUM), ("*", PRODUCT)]);
     let a = maker.operand(scope, ty, depth, strength);
     let other = if maker.choices.either() { Type::Number } else { ty.clone() };

@@ -203,7 +203,7 @@ impl<'a, 'p> Body<'a, 'p> {
         let (ident, ty) = self.names.fetched(self.plan.program, input);
         let nothing = match ty {
             Scalar::Float => self.dialect.number(self.plan.program.inputs[input.index()].least()),
-            Scalar::Uint | Scalar::Bool => self.dialect.zero(ty),
+            Scalar::Uint | Scalar::Int | Scalar::Bool => self.dialect.zero(ty),
         };
         self.text.line(self.dialect.variable(&ty.into(), &ident, &nothing, self.prefix));
         if self.plan.pool.truth(condition) == Some(false) {

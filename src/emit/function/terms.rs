@@ -36,8 +36,9 @@ impl Body<'_, '_> {
         self.declare(&numbers.map(|(_, value)| *value).collect::<Vec<_>>());
         let components = components.iter().map(|(scalar, value)| match scalar {
             Scalar::Float => bare(&self.expr(*value)).to_owned(),
-            Scalar::Uint => bare(&self.integer(*value)).to_owned(),
-            Scalar::Bool => format!("{} != {}", self.integer(*value), self.dialect.uint(0)),
+            Scalar::Uint => bare(&self.whole(*value, |me, value| me.dialect.uint(value as u32))).to_owned(),
+            Scalar::Int => bare(&self.whole(*value, |me, value| me.dialect.int(value as i32))).to_owned(),
+            Scalar::Bool => bare(&self.truth(*value)).to_owned(),
         });
         let value = value(self.dialect, self.prefix, &data, components);
         let result = self.dialect.result(self.prefix, &value, &case);
@@ -118,16 +119,31 @@ impl Body<'_, '_> {
         }
     }
 
-    /// An expression of whole numbers: constants and selections.
-    fn integer(&self, expr: ExprId) -> String {
+    /// An expression of whole numbers: constants, as `literal` writes them, and selections.
+    fn whole(&self, expr: ExprId, literal: impl Fn(&Self, f64) -> String + Copy) -> String {
         match self.plan.pool.node(expr) {
             Node::Select(c, a, b) => {
                 let condition = self.condition(c);
-                self.dialect.select(bare(&condition), &self.integer(a), &self.integer(b))
+                self.dialect.select(bare(&condition), &self.whole(a, literal), &self.whole(b, literal))
             }
-            Node::Const(number) => self.dialect.uint(number.get() as u32),
+            Node::Const(number) => literal(self, number.get()),
             Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
-                self.dialect.uint(0)
+                literal(self, 0.0)
+            }
+        }
+    }
+
+    /// A condition that stands as 1 or 0: constants and selections.
+    fn truth(&self, expr: ExprId) -> String {
+        let known = |expr| self.plan.pool.constant(expr).map(|value| value != 0.0);
+        match self.plan.pool.node(expr) {
+            Node::Select(c, a, b) => match (known(a), known(b)) {
+                (Some(true), Some(false)) => self.condition(c),
+                (Some(false), Some(true)) => format!("!({})", bare(&self.condition(c))),
+                _ => self.dialect.select(bare(&self.condition(c)), &self.truth(a), &self.truth(b)),
+            },
+            Node::Const(_) | Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+                known(expr).unwrap_or_default().to_string()
             }
         }
     }

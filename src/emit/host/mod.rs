@@ -232,6 +232,7 @@ impl Side<'_, '_> {
         let ty = |input: &Input| match input_type(&input.domain, Scalar::Uint) {
             Scalar::Float => "f32",
             Scalar::Uint | Scalar::Bool => "u32",
+            Scalar::Int => "i32",
         };
         fetched.map(|input| (input.ident.clone(), ty(input))).collect()
     }

@@ -24,8 +24,12 @@ fn compose(
 ) -> String {
     match data {
         DataType::Scalar(_) => components.next().unwrap_or_default(),
-        DataType::Vector(count) | DataType::Array(_, count) => {
+        DataType::Vector(count) => {
             let parts: Vec<String> = components.take(*count).collect();
+            dialect.collection(&dialect.data(data, structure), &parts)
+        }
+        DataType::Array(of, count) => {
+            let parts: Vec<String> = (0..*count).map(|_| compose(dialect, of, structure, components)).collect();
             dialect.collection(&dialect.data(data, structure), &parts)
         }
         DataType::Structure(fields) => {
@@ -75,7 +79,9 @@ mod tests {
     /// A structure with a field of every type, a structure among them.
     fn everything() -> DataType {
         let inner = DataType::Structure(vec![
-            ("edges".to_owned(), DataType::Array(Scalar::Uint, 3)),
+            ("edges".to_owned(), DataType::Array(Box::new(DataType::Scalar(Scalar::Uint)), 3)),
+            ("points".to_owned(), DataType::Array(Box::new(DataType::Vector(2)), 2)),
+            ("turns".to_owned(), DataType::Scalar(Scalar::Int)),
             ("lit".to_owned(), DataType::Scalar(Scalar::Bool)),
         ]);
         DataType::Structure(vec![

@@ -37,6 +37,7 @@ impl Dialect for Glsl {
         match scalar {
             Scalar::Float => "float",
             Scalar::Uint => "uint",
+            Scalar::Int => "int",
             Scalar::Bool => "bool",
         }
     }
@@ -45,8 +46,8 @@ impl Dialect for Glsl {
         format!("vec{size}")
     }
 
-    fn array(&self, scalar: Scalar, length: usize) -> String {
-        format!("{}[{length}]", self.scalar(scalar))
+    fn array(&self, of: &str, length: usize) -> String {
+        format!("{of}[{length}]")
     }
 
     fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {

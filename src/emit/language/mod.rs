@@ -77,14 +77,14 @@ pub(super) trait Dialect {
     fn scalar(&self, scalar: Scalar) -> &'static str;
     /// The name of the type of a vector of numbers.
     fn vector(&self, size: usize) -> String;
-    /// The name of the type of an array.
-    fn array(&self, scalar: Scalar, length: usize) -> String;
+    /// The name of the type of an array, given that of its items.
+    fn array(&self, of: &str, length: usize) -> String;
     /// The name of a type of data, in which structures begin with `structure`.
     fn data(&self, data: &DataType, structure: &str) -> String {
         match data {
             DataType::Scalar(scalar) => self.scalar(*scalar).to_owned(),
             DataType::Vector(size) => self.vector(*size),
-            DataType::Array(scalar, length) => self.array(*scalar, *length),
+            DataType::Array(of, length) => self.array(&self.data(of, structure), *length),
             DataType::Structure(_) => structure.to_owned(),
         }
     }
@@ -177,6 +177,10 @@ pub(super) trait Dialect {
     fn uint(&self, value: u32) -> String {
         format!("{value}u")
     }
+    /// A whole number with a sign.
+    fn int(&self, value: i32) -> String {
+        value.to_string()
+    }
     /// One of two values.
     fn select(&self, condition: &str, then: &str, other: &str) -> String;
     /// 0 or 1.
@@ -185,11 +189,20 @@ pub(super) trait Dialect {
     fn float_from_bits(&self, word: &str) -> String;
     /// The word that holds the bits of a number.
     fn bits_of_float(&self, number: &str) -> String;
+    /// The whole number whose bits a word holds.
+    fn int_from_bits(&self, word: &str) -> String {
+        format!("int({word})")
+    }
+    /// The word that holds the bits of a whole number.
+    fn bits_of_int(&self, number: &str) -> String {
+        format!("uint({number})")
+    }
     /// The scalar that a word holds.
     fn scalar_of_word(&self, scalar: Scalar, word: &str) -> String {
         match scalar {
             Scalar::Float => self.float_from_bits(word),
             Scalar::Uint => word.to_owned(),
+            Scalar::Int => self.int_from_bits(word),
             Scalar::Bool => format!("{word} != {}", self.uint(0)),
         }
     }
@@ -198,6 +211,7 @@ pub(super) trait Dialect {
         match scalar {
             Scalar::Float => self.bits_of_float(value),
             Scalar::Uint => value.to_owned(),
+            Scalar::Int => self.bits_of_int(value),
             Scalar::Bool => self.bool_to_uint(value),
         }
     }
@@ -206,6 +220,7 @@ pub(super) trait Dialect {
         match scalar {
             Scalar::Float => self.number(0.0),
             Scalar::Uint => self.uint(0),
+            Scalar::Int => self.int(0),
             Scalar::Bool => "false".to_owned(),
         }
     }

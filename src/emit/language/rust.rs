@@ -14,16 +14,17 @@ impl Dialect for Rust {
         match scalar {
             Scalar::Float => "f32",
             Scalar::Uint => "u32",
+            Scalar::Int => "i32",
             Scalar::Bool => "bool",
         }
     }
 
     fn vector(&self, size: usize) -> String {
-        self.array(Scalar::Float, size)
+        self.array(self.scalar(Scalar::Float), size)
     }
 
-    fn array(&self, scalar: Scalar, length: usize) -> String {
-        format!("[{}; {length}]", self.scalar(scalar))
+    fn array(&self, of: &str, length: usize) -> String {
+        format!("[{of}; {length}]")
     }
 
     fn site(&self, prefix: &Prefix) -> String {
@@ -119,6 +120,14 @@ impl Dialect for Rust {
 
     fn spelling(&self, of: Spellings) -> Spelling {
         of.rust
+    }
+
+    fn int_from_bits(&self, word: &str) -> String {
+        format!("({word} as i32)")
+    }
+
+    fn bits_of_int(&self, number: &str) -> String {
+        format!("({number} as u32)")
     }
 
     fn collection(&self, _: &str, parts: &[String]) -> String {

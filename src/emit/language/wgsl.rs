@@ -18,6 +18,7 @@ impl Dialect for Wgsl {
         match scalar {
             Scalar::Float => "f32",
             Scalar::Uint => "u32",
+            Scalar::Int => "i32",
             Scalar::Bool => "bool",
         }
     }
@@ -26,8 +27,8 @@ impl Dialect for Wgsl {
         format!("vec{size}<f32>")
     }
 
-    fn array(&self, scalar: Scalar, length: usize) -> String {
-        format!("array<{}, {length}>", self.scalar(scalar))
+    fn array(&self, of: &str, length: usize) -> String {
+        format!("array<{of}, {length}>")
     }
 
     fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {
@@ -79,6 +80,18 @@ impl Dialect for Wgsl {
 
     fn case_default(&self) -> &'static str {
         "default: {}"
+    }
+
+    fn int(&self, value: i32) -> String {
+        format!("{value}i")
+    }
+
+    fn int_from_bits(&self, word: &str) -> String {
+        format!("bitcast<i32>({word})")
+    }
+
+    fn bits_of_int(&self, number: &str) -> String {
+        format!("bitcast<u32>({number})")
     }
 
     fn select(&self, condition: &str, then: &str, other: &str) -> String {

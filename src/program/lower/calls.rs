@@ -85,7 +85,7 @@ impl Lowering<'_> {
                 Ok(Term::Vector(parts.into_iter().map(|a| self.unary(op, a, span)).collect::<Result<_>>()?))
             }
             Term::Record(parts) => {
-                let parts = parts.into_iter().map(|(name, a)| Ok((name, self.unary(op, a, span)?)));
+                let parts = parts.into_iter().map(|(name, a)| Ok((name, self.map1(op, a, span)?)));
                 Ok(Term::Record(parts.collect::<Result<_>>()?))
             }
             other @ (Term::Bool(_) | Term::Level(..) | Term::List(_)) => Err(self.no_number(&other, span)),
@@ -112,26 +112,26 @@ impl Lowering<'_> {
 
     pub(super) fn map2(&mut self, op: BinaryOp, a: Term, b: Term, span: Span) -> Result<Term> {
         // Records go with records of the same names, and with numbers.
-        let names = match (&a, &b) {
+        match (&a, &b) {
             (Term::Record(x), Term::Record(y)) if !x.iter().map(|p| &p.0).eq(y.iter().map(|p| &p.0)) => {
                 let message = format!("{} and {} do not go together", self.describe(&a), self.describe(&b));
                 return Err(Diagnostic::error(codes::TYPE, message).at(span, "in this operation"));
             }
-            (Term::Record(parts), Term::Record(_) | Term::Number(_)) | (Term::Number(_), Term::Record(parts)) => {
-                Some(parts.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>())
+            (Term::Record(x), Term::Record(y)) => {
+                let pairs = x.iter().zip(y);
+                let pairs =
+                    pairs.map(|((name, a), (_, b))| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
+                return Ok(Term::Record(pairs.collect::<Result<_>>()?));
             }
-            _ => None,
-        };
-        if let Some(names) = names {
-            let values = |term: Term| match term {
-                Term::Record(parts) => parts.into_iter().map(|(_, part)| part).collect(),
-                Term::Number(number) => vec![number; names.len()],
-                Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) => Vec::new(),
-            };
-            let pairs = values(a).into_iter().zip(values(b));
-            let parts: Vec<ExprId> =
-                pairs.map(|(a, b)| self.binary_operation(op, a, b, span)).collect::<Result<_>>()?;
-            return Ok(Term::Record(names.into_iter().zip(parts).collect()));
+            (Term::Record(x), Term::Number(_)) => {
+                let parts = x.iter().map(|(name, a)| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
+                return Ok(Term::Record(parts.collect::<Result<_>>()?));
+            }
+            (Term::Number(_), Term::Record(y)) => {
+                let parts = y.iter().map(|(name, b)| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
+                return Ok(Term::Record(parts.collect::<Result<_>>()?));
+            }
+            _ => {}
         }
         let mut parts = Vec::new();
         let (a, b, scalar) = self.broadcast(a, b, span)?;
@@ -194,9 +194,9 @@ impl Lowering<'_> {
 
     pub(super) fn swizzle(&mut self, value: Term, letters: &str, span: Span) -> Result<Term> {
         if let Term::Record(parts) = &value
-            && let Some((_, number)) = parts.iter().find(|(name, _)| name == letters)
+            && let Some((_, part)) = parts.iter().find(|(name, _)| name == letters)
         {
-            return Ok(Term::Number(*number));
+            return Ok(part.clone());
         }
         if let Term::Record(parts) = &value {
             let known = parts.iter().map(|(name, _)| name.as_str());

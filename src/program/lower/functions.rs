@@ -10,19 +10,16 @@ use std::rc::Rc;
 
 use super::scope::Env;
 use super::terms::{Expected, Term, type_error};
-use super::{Lowering, Result};
+use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::operators::BinaryOp;
 use crate::program::pool::ExprId;
 use crate::table::expr::{Expr, ExprKind, SumOver};
-use crate::table::{self, CaseBody, ConstantValue, Function, FunctionBody, Helper, names};
+use crate::table::{self, CaseBody, ConstantValue, Function, FunctionBody, Helper, MAX_FIELDS, Output, names};
 use crate::text::closest::nearest;
 
 /// Most terms of a sum, and most coefficients of a polynomial.
 const MAX_TERMS: usize = 256;
-
-/// Most numbers of a record.
-const MAX_FIELDS: usize = 32;
 
 /// A function of the table or of an imported one.
 #[derive(Clone, Copy)]
@@ -231,10 +228,12 @@ impl<'t> Lowering<'t> {
         match &function.body {
             FunctionBody::Value(value) => self.term(value, &env, Expected::Anything),
             FunctionBody::Cases { cases, default } => {
+                let place = default.span;
                 let default = self.term(default, &env, Expected::Anything)?;
+                let expected = Expected::of(&self.inferred(&default, place)?);
                 let mut term = default.clone();
                 for case in cases.iter().rev() {
-                    let (guard, lines) = self.function_case(case, &env)?;
+                    let (guard, lines) = self.function_case(case, &env, expected.clone())?;
                     let value = lines.into_iter().rev().try_fold(default.clone(), |other, line| {
                         self.choose(line.condition, line.value, other, line.span)
                     })?;
@@ -262,11 +261,10 @@ impl<'t> Lowering<'t> {
         &mut self,
         case: &table::Case,
         env: &Env,
+        expected: Expected,
     ) -> Result<(crate::program::CondId, Vec<super::rows::LoweredLine>)> {
         match &case.body {
-            CaseBody::Rows { when, lines } => {
-                Ok((self.condition(when, env)?, self.lines(lines, env, Expected::Anything)?))
-            }
+            CaseBody::Rows { when, lines } => Ok((self.condition(when, env)?, self.lines(lines, env, expected)?)),
             CaseBody::Image { under, .. } => {
                 let message = "a case of a function is written out";
                 Err(Diagnostic::error(codes::CASE_SHAPE, message).at(under.span, "functions have no symmetries"))
@@ -385,25 +383,43 @@ impl<'t> Lowering<'t> {
     }
 
     /// `{x: a, y: b}`
-    pub(super) fn record(&mut self, fields: &[(Spanned<String>, Expr)], span: Span, env: &Env) -> Result<Term> {
+    pub(super) fn record(
+        &mut self,
+        fields: &[(Spanned<String>, Expr)],
+        span: Span,
+        env: &Env,
+        expected: &Expected,
+    ) -> Result<Term> {
         if fields.len() > MAX_FIELDS {
-            let message = format!("a record of {} numbers", fields.len());
+            let message = format!("a record of {} values", fields.len());
             return Err(Diagnostic::error(codes::TYPE, message).at(span, format!("at most {MAX_FIELDS}")));
         }
-        let mut parts = Vec::new();
+        let declared: &[(String, Output<SetId>)] = match expected {
+            Expected::Result(output) => match &**output {
+                Output::Record(fields) => fields,
+                Output::Number(_)
+                | Output::Vector(..)
+                | Output::Bool
+                | Output::Int(..)
+                | Output::Enumeration(_)
+                | Output::List { .. } => &[],
+            },
+            Expected::Anything | Expected::Level(_) => &[],
+        };
+        let mut parts: Vec<(String, Term)> = Vec::new();
         for (index, (name, value)) in fields.iter().enumerate() {
-            names::check(&name.value, "a number of a record", name.span)?;
-            if name.value.contains('.') {
-                let error = Diagnostic::error(codes::BAD_NAME, "the name of a number of a record contains no dot");
-                return Err(error.at(name.span, "dots group inputs"));
+            names::check_field(name, fields[..index].iter().map(|(other, _)| other))?;
+            let of = declared.iter().find(|(field, _)| *field == name.value);
+            let expected = of.map_or(Expected::Anything, |(_, of)| Expected::of(of));
+            let term = self.term(value, env, expected)?;
+            if let Some((field, of)) = of {
+                // Tied again with the whole record, this tells a mistake where it stands.
+                self.tie(of, term.clone(), value.span, &format!("`{field}`"), &mut Vec::new())?;
             }
-            if let Some((first, _)) = fields[..index].iter().find(|(other, _)| other.value == name.value) {
-                return Err(Diagnostic::error(codes::DUPLICATE, format!("`{}` is given twice", name.value))
-                    .at(name.span, "again")
-                    .at(first.span, "first here"));
-            }
-            parts.push((name.value.clone(), self.numeric(value, env)?));
+            parts.push((name.value.clone(), term));
         }
+        // In the order declared, so that records of one output go together.
+        parts.sort_by_key(|(name, _)| declared.iter().position(|(field, _)| field == name));
         Ok(Term::Record(parts))
     }
 

@@ -96,10 +96,10 @@ impl Lowering<'_> {
     pub(super) fn alternatives(&mut self, a: &Expr, b: &Expr, env: &Env, expected: Expected) -> Result<(Term, Term)> {
         let swap = expected == Expected::Anything && self.is_bare(a, env) && !self.is_bare(b, env);
         let (first, second) = if swap { (b, a) } else { (a, b) };
-        let mut first_term = self.term(first, env, expected)?;
+        let mut first_term = self.term(first, env, expected.clone())?;
         let second_expected = match (&first_term, expected) {
             (Term::Level(set, _), Expected::Anything) => Expected::Level(*set),
-            _ => expected,
+            (_, expected) => expected,
         };
         let second_term = self.term(second, env, second_expected)?;
         if let (Term::Number(_), Term::Level(set, _)) = (&first_term, &second_term) {

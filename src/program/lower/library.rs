@@ -169,7 +169,8 @@ impl<'t> Lowering<'t> {
                         let error = Diagnostic::error(codes::DUPLICATE_CASE, message);
                         return Err(error.at(case.id.span, "defined again here").at(first, "first defined here"));
                     }
-                    let (guard, lines) = self.function_case(case, &env)?;
+                    let expected = self.expected_output();
+                    let (guard, lines) = self.function_case(case, &env, expected)?;
                     let lines = lines.into_iter().map(|line| {
                         let values = self.result(line.value, line.span)?;
                         Ok(Line {

@@ -1,15 +1,19 @@
 //! The output: its level sets found, its kind inferred for a function, and values tied to it.
 
+use std::collections::HashSet;
 use std::convert::Infallible;
 use std::rc::Rc;
 
+use super::scope::Env;
 use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program;
+use crate::program::domain::LevelKind;
 use crate::program::operators::TernaryOp;
-use crate::program::pool::ExprId;
+use crate::program::pool::{ExprId, Node};
 use crate::table::Output;
+use crate::table::expr::Expr;
 
 /// A component of a value that is tied to the output, and the bounds that it is still to be clamped to.
 pub(super) struct Part {
@@ -22,7 +26,7 @@ impl Lowering<'_> {
     pub(super) fn declare_output(&mut self) -> Result<()> {
         let table = self.table;
         self.output = Rc::new(table.output.value.try_map(&mut |name| self.find_named_set(name))?);
-        Ok(())
+        self.check_columns(table.output.span)
     }
 
     /// A level set that a result can be of. A condition has no levels in an expression.
@@ -40,20 +44,53 @@ impl Lowering<'_> {
 
     /// Infers the output of a function from its value.
     pub(super) fn infer_output(&mut self, term: &Term, span: Span) -> Result<()> {
-        self.output = Rc::new(match term {
+        self.output = Rc::new(self.inferred(term, span)?);
+        self.check_columns(span)
+    }
+
+    /// The kind of result that a value is.
+    pub(super) fn inferred(&self, term: &Term, span: Span) -> Result<Output<SetId>> {
+        let version_2 = |what: &str| self.table.since(2, span, &format!("a function that returns {what}"));
+        Ok(match term {
             Term::Number(_) => Output::Number(None),
             Term::Vector(parts) => Output::Vector(parts.len(), None),
             Term::Record(parts) => {
-                Output::Record(parts.iter().map(|(name, _)| (name.clone(), Output::Number(None))).collect())
+                let field = |(name, part): &(String, Term)| Ok((name.clone(), self.inferred(part, span)?));
+                Output::Record(parts.iter().map(field).collect::<Result<_>>()?)
             }
-            Term::Bool(_) | Term::Level(..) | Term::List(_) => {
-                let message = format!("a function returns numbers, but this is {}", self.describe(term));
+            Term::Bool(_) => {
+                version_2("a condition")?;
+                Output::Bool
+            }
+            Term::Level(set, _) => {
+                version_2("a level")?;
+                Output::Enumeration(*set)
+            }
+            Term::List(_) => {
+                let message = format!("a function returns no list, but this is {}", self.describe(term));
                 return Err(Diagnostic::error(codes::OUTPUTS, message)
-                    .at(span, "not a number, vector or record")
-                    .help("`f32(...)` gives the number of a level or condition"));
+                    .at(span, "a list")
+                    .help("what a list is of and how long it gets is declared with the `output` of a table of cases"));
             }
-        });
-        Ok(())
+        })
+    }
+
+    /// Refuses fields whose components would have the same name in data or in generated code.
+    fn check_columns(&self, span: Span) -> Result<()> {
+        let mut seen = HashSet::new();
+        let components: Vec<String> = self.output.components().into_iter().map(|component| component.name).collect();
+        // A list fills one column, which has a name of its own.
+        let columns = self.output.columns();
+        let lists: Vec<String> = columns.into_iter().filter(|name| !components.contains(name)).collect();
+        let twice = components.into_iter().chain(lists).find(|name| !seen.insert(name.clone()));
+        match twice {
+            None => Ok(()),
+            Some(name) => {
+                Err(Diagnostic::error(codes::DUPLICATE, format!("two parts of the result are called `{name}`"))
+                    .at(span, "of this output")
+                    .help("the parts of a field are called after it: `at_x` is the first number of a vector `at`"))
+            }
+        }
     }
 
     /// An output with its levels, as programs have it.
@@ -64,37 +101,54 @@ impl Lowering<'_> {
 
     /// The expectation of a value that is to be tied to the output.
     pub(super) fn expected_output(&self) -> Expected {
-        match &*self.output {
-            Output::Number(_) | Output::Vector(..) | Output::Record(_) => Expected::Anything,
-            Output::Enumeration(of) => Expected::Level(*of),
-            Output::List { of, max } => Expected::List(*of, *max),
-        }
+        Expected::of(&self.output)
     }
 
     /// Ties a value to the output: the components, not clamped yet.
     pub(super) fn components(&mut self, term: Term, span: Span) -> Result<Vec<Part>> {
         let mut parts = Vec::new();
         let output = self.output.clone();
-        self.tie(&output, term, span, &mut parts)?;
+        self.tie(&output, term, span, "the output", &mut parts)?;
         Ok(parts)
     }
 
-    fn tie(&mut self, output: &Output<SetId>, term: Term, span: Span, parts: &mut Vec<Part>) -> Result<()> {
+    /// Ties a value to an output or to a part of one, which `what` names.
+    pub(super) fn tie(
+        &mut self,
+        output: &Output<SetId>,
+        term: Term,
+        span: Span,
+        what: &str,
+        parts: &mut Vec<Part>,
+    ) -> Result<()> {
         let free = |value: ExprId| Part { value, clamp: None };
         match (output, term) {
             (Output::Number(clamp), Term::Number(value)) => parts.push(Part { value, clamp: *clamp }),
             (Output::Vector(size, clamp), Term::Vector(values)) if values.len() == *size => {
                 parts.extend(values.into_iter().map(|value| Part { value, clamp: *clamp }));
             }
+            (Output::Bool, Term::Bool(condition)) => {
+                let (one, zero) = (self.pool.number(1.0), self.pool.number(0.0));
+                parts.push(free(self.pool.select(condition, one, zero)));
+            }
+            (Output::Int(from, to), Term::Number(value)) => {
+                parts.push(free(self.whole_result(value, (*from, *to), span, what)?))
+            }
+            (Output::Int(from, to), Term::Level(set, level)) if self.sets[set.0].kind == LevelKind::Int => {
+                let value = self.level_number(set, &level, |me, level| me.sets[set.0].codes[usize::from(level)]);
+                parts.push(free(self.whole_result(value, (*from, *to), span, what)?));
+            }
             (Output::Enumeration(of), Term::Level(set, term)) if set == *of => {
                 parts.push(free(self.level_number(set, &term, |_, level| f64::from(level))));
             }
             (Output::List { .. }, Term::List(values)) => parts.extend(values.into_iter().map(free)),
             (Output::Record(fields), Term::Record(values))
-                if values.iter().map(|(name, _)| name).eq(fields.iter().map(|(name, _)| name)) =>
+                if values.len() == fields.len()
+                    && fields.iter().all(|(name, _)| values.iter().any(|(other, _)| name == other)) =>
             {
-                for ((_, field), (_, value)) in fields.iter().zip(values) {
-                    self.tie(field, Term::Number(value), span, parts)?;
+                for (name, field) in fields {
+                    let Some((_, value)) = values.iter().find(|(other, _)| name == other) else { continue };
+                    self.tie(field, value.clone(), span, &format!("`{name}`"), parts)?;
                 }
             }
             (_, term) => {
@@ -103,7 +157,7 @@ impl Lowering<'_> {
                     true => "what the table returns is declared under `output`",
                     false => "what a function returns is of the kind of its value, or of its default if it has cases",
                 };
-                return Err(Diagnostic::error(codes::TYPE, format!("the output is {wanted}, but this is {found}"))
+                return Err(Diagnostic::error(codes::TYPE, format!("{what} is {wanted}, but this is {found}"))
                     .at(span, format!("this is {found}"))
                     .help(declared));
             }
@@ -111,16 +165,78 @@ impl Lowering<'_> {
         Ok(())
     }
 
+    /// A number that chooses between whole numbers of a range.
+    fn whole_result(&self, value: ExprId, (from, to): (i32, i32), span: Span, what: &str) -> Result<ExprId> {
+        let mut open = vec![value];
+        while let Some(expr) = open.pop() {
+            match self.pool.node(expr) {
+                Node::Const(number) if number.get().fract() == 0.0 => {
+                    let whole = number.get();
+                    if !(f64::from(from)..=f64::from(to)).contains(&whole) {
+                        return Err(Diagnostic::error(
+                            codes::DOMAIN,
+                            format!("{whole} is not between {from} and {to}"),
+                        )
+                        .at(span, "a result out of its range")
+                        .at(self.table.output.span, "declared here"));
+                    }
+                }
+                Node::Select(_, then, other) => open.extend([then, other]),
+                Node::Const(_)
+                | Node::Input(_)
+                | Node::Result
+                | Node::Unary(..)
+                | Node::Binary(..)
+                | Node::Ternary(..) => {
+                    return Err(Diagnostic::error(
+                        codes::TYPE,
+                        format!("{what} is a whole number, but this is a real number"),
+                    )
+                    .at(span, "not a choice between whole numbers")
+                    .help("write whole numbers, `Int` inputs, and choices between them"));
+                }
+            }
+        }
+        Ok(value)
+    }
+
     /// Ties a value to the output: the components, clamped.
     pub(super) fn result(&mut self, term: Term, span: Span) -> Result<Vec<ExprId>> {
         let parts = self.components(term, span)?;
-        let clamped = parts.into_iter().map(|Part { value, clamp }| match clamp {
+        Ok(parts.into_iter().map(|part| self.clamped(part)).collect())
+    }
+
+    fn clamped(&mut self, Part { value, clamp }: Part) -> ExprId {
+        match clamp {
             None => value,
             Some((lo, hi)) => {
                 let (lo, hi) = (self.pool.number(lo), self.pool.number(hi));
                 self.pool.ternary(TernaryOp::Clamp, value, lo, hi)
             }
-        });
-        Ok(clamped.collect())
+        }
+    }
+
+    /// A list as its components: its length, its items, and zeros up to the most items.
+    pub(super) fn list(
+        &mut self,
+        items: &[Expr],
+        of: &Output<SetId>,
+        max: usize,
+        span: Span,
+        env: &Env,
+    ) -> Result<Term> {
+        if items.len() > max {
+            return Err(Diagnostic::error(codes::TYPE, format!("the list has {} items", items.len()))
+                .at(span, format!("the output allows at most {max}")));
+        }
+        let mut parts = vec![Part { value: self.pool.number(items.len() as f64), clamp: None }];
+        for item in items {
+            let term = self.term(item, env, Expected::of(of))?;
+            self.tie(of, term, item.span, "an item", &mut parts)?;
+        }
+        let mut parts: Vec<ExprId> = parts.into_iter().map(|part| self.clamped(part)).collect();
+        let zero = self.pool.number(0.0);
+        parts.resize(1 + max * of.size(), zero);
+        Ok(Term::List(parts))
     }
 }

@@ -120,7 +120,7 @@ impl<'t> Lowering<'t> {
                 Some(condition) => self.condition(condition, env)?,
                 None => self.pool.always(true),
             };
-            let value = self.term(&line.value, env, expected)?;
+            let value = self.term(&line.value, env, expected.clone())?;
             let condition_span = line.condition.as_ref().map(|condition| condition.span);
             Ok(LoweredLine { condition, condition_span, value, span: line.value.span })
         });

@@ -207,8 +207,8 @@ impl Lowering<'_> {
         match term {
             Term::Number(expr) => self.pool.set_label(*expr, name),
             Term::Record(parts) => {
-                for (part, expr) in parts {
-                    self.pool.set_label(*expr, &format!("{name}_{part}"));
+                for (part, term) in parts {
+                    self.label(term, &format!("{name}_{part}"));
                 }
             }
             Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) => {}

@@ -3,6 +3,7 @@
 //! Types are inferred bottom-up, except that a bare level name takes its type
 //! from what it is compared with or where it ends up.
 
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::scope::Env;
@@ -12,6 +13,7 @@ use crate::program::LevelTerm;
 use crate::program::operators::Comparison;
 use crate::program::operators::{BinaryOp, UnaryOp};
 use crate::program::pool::{self, CondId, ExprId};
+use crate::table::Output;
 use crate::table::expr::{self as ast, Expr, ExprKind};
 
 /// Deepest and largest value of one row, references included.
@@ -34,16 +36,41 @@ pub(super) enum Term {
     Level(SetId, Arc<LevelTerm>),
     /// A length and items, padded to the output's maximum.
     List(Vec<ExprId>),
-    /// Numbers with names.
-    Record(Vec<(String, ExprId)>),
+    /// Values with names.
+    Record(Vec<(String, Term)>),
 }
 
-/// The expectation of an expression; guides bare level names and lists.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The expectation of an expression; guides bare level names, records and lists.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Expected {
     Anything,
     Level(SetId),
-    List(SetId, usize),
+    /// A record or a list.
+    Result(Rc<Output<SetId>>),
+}
+
+impl Expected {
+    /// The expectation of a value that is to be tied to an output.
+    pub(super) fn of(output: &Output<SetId>) -> Self {
+        match output {
+            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) => Expected::Anything,
+            Output::Enumeration(of) => Expected::Level(*of),
+            Output::Record(_) | Output::List { .. } => Expected::Result(Rc::new(output.clone())),
+        }
+    }
+}
+
+impl Term {
+    /// The expressions and conditions that it consists of; levels have none.
+    fn parts(&self, exprs: &mut Vec<ExprId>, conditions: &mut Vec<CondId>) {
+        match self {
+            Term::Number(expr) => exprs.push(*expr),
+            Term::Vector(parts) | Term::List(parts) => exprs.extend(parts),
+            Term::Bool(condition) => conditions.push(*condition),
+            Term::Level(..) => {}
+            Term::Record(parts) => parts.iter().for_each(|(_, part)| part.parts(exprs, conditions)),
+        }
+    }
 }
 
 impl Lowering<'_> {
@@ -66,13 +93,13 @@ impl Lowering<'_> {
     }
 
     pub(super) fn check_size(&self, term: &Term, span: Span) -> Result<()> {
-        let facts: Vec<pool::Facts> = match term {
-            Term::Number(e) => vec![self.pool.expr_facts(*e)],
-            Term::Vector(parts) | Term::List(parts) => parts.iter().map(|e| self.pool.expr_facts(*e)).collect(),
-            Term::Record(parts) => parts.iter().map(|(_, e)| self.pool.expr_facts(*e)).collect(),
-            Term::Bool(c) => vec![self.pool.cond_facts(*c)],
-            Term::Level(..) => return Ok(()),
-        };
+        let (mut exprs, mut conditions) = (Vec::new(), Vec::new());
+        term.parts(&mut exprs, &mut conditions);
+        let exprs = exprs.into_iter().map(|expr| self.pool.expr_facts(expr));
+        let facts: Vec<pool::Facts> = exprs.chain(conditions.into_iter().map(|c| self.pool.cond_facts(c))).collect();
+        if facts.is_empty() {
+            return Ok(());
+        }
         if self.pool.len() > MAX_TERMS {
             let message = "with names, references and calls written out, the table is too large";
             return Err(Diagnostic::error(codes::TOO_DEEP, message)
@@ -137,13 +164,20 @@ impl Lowering<'_> {
             },
             ExprKind::Between(body, variable, lo, hi) => self.between(body, variable, [lo, hi], span, env),
             ExprKind::Sum(variable, over, term) => self.sum(variable, over, term, span, env),
-            ExprKind::Record(fields) => self.record(fields, span, env),
-            ExprKind::List(items) => match expected {
-                Expected::List(set, max) => self.list(items, set, max, span, env),
-                Expected::Anything | Expected::Level(_) => {
-                    Err(type_error(span, "a list", "only a table with `output: List(...)` has lists as values"))
+            ExprKind::Record(fields) => self.record(fields, span, env, &expected),
+            ExprKind::List(items) => {
+                if let Expected::Result(output) = &expected
+                    && let Output::List { of, max } = &**output
+                {
+                    return self.list(items, of, *max, span, env);
                 }
-            },
+                Err(match self.output.has_list() {
+                    false => type_error(span, "a list", "only a table with `output: List(...)` has lists as values"),
+                    true => Diagnostic::error(codes::TYPE, "a list stands here, where none is expected")
+                        .at(span, "a list")
+                        .help("lists stand where the output has one: they have no names and are not calculated with"),
+                })
+            }
         }
     }
 
@@ -263,9 +297,10 @@ impl Lowering<'_> {
             (Term::List(a), Term::List(b)) => Ok(Term::List(zip(self, a, b))),
             (Term::Record(a), Term::Record(b)) if a.iter().map(|p| &p.0).eq(b.iter().map(|p| &p.0)) => {
                 let parts = a.iter().zip(b);
-                Ok(Term::Record(
-                    parts.map(|((n, a), (_, b))| (n.clone(), self.pool.select(condition, *a, *b))).collect(),
-                ))
+                let part = |((name, a), (_, b)): (&(String, Term), &(String, Term))| {
+                    Ok((name.clone(), self.choose(condition, a.clone(), b.clone(), span)?))
+                };
+                Ok(Term::Record(parts.map(part).collect::<Result<_>>()?))
             }
             (Term::Level(s, a), Term::Level(t, b)) if s == t => {
                 Ok(Term::Level(*s, Arc::new(LevelTerm::If(condition, a.clone(), b.clone()))))
@@ -279,32 +314,6 @@ impl Lowering<'_> {
                 })
             }
         }
-    }
-
-    pub(super) fn list(&mut self, items: &[Expr], set: SetId, max: usize, span: Span, env: &Env) -> Result<Term> {
-        if items.len() > max {
-            return Err(Diagnostic::error(codes::TYPE, format!("the list has {} items", items.len()))
-                .at(span, format!("the output allows at most {max}")));
-        }
-        let mut parts = vec![self.pool.number(items.len() as f64)];
-        for item in items {
-            match self.term(item, env, Expected::Level(set))? {
-                Term::Level(found, term) if found == set => {
-                    parts.push(self.level_number(set, &term, |_, level| f64::from(level)));
-                }
-                other @ (Term::Number(_)
-                | Term::Vector(_)
-                | Term::Bool(_)
-                | Term::Level(..)
-                | Term::List(_)
-                | Term::Record(_)) => {
-                    return Err(type_error(item.span, &self.describe(&other), "expected a level of the output"));
-                }
-            }
-        }
-        let zero = self.pool.number(0.0);
-        parts.resize(max + 1, zero);
-        Ok(Term::List(parts))
     }
 }
 
