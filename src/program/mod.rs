@@ -43,7 +43,7 @@ use crate::table::{Allow, Erratum, HitPolicy, Table};
 
 pub use data_type::{Component, DataType, Scalar};
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
-pub use lower::LevelTerm;
+pub use lower::{LevelTerm, Signature, signatures};
 pub use operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 pub use ops::Real;
 pub use output::{Output, Reading};

@@ -234,6 +234,11 @@ impl Pool {
         self.exprs.len()
     }
 
+    /// The number of conditions.
+    pub fn conditions(&self) -> usize {
+        self.conds.len()
+    }
+
     /// The size of the largest expression when written out as a tree; saturates.
     pub fn largest(&self) -> u32 {
         self.exprs.iter().map(|(_, facts)| facts.size).max().unwrap_or(0)

@@ -1,5 +1,6 @@
 //! Reads the tables that a table imports, and those that they import.
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,16 +12,21 @@ use crate::text::reach::{OutOfReach, beside, plain};
 /// Most tables in a chain of imports.
 const MAX_CHAIN: usize = 8;
 
-/// Reads what a table imports. A mistake in an imported table is reported there.
+/// The tables read so far, by path, each with the length of the longest chain of imports that it begins.
+type Known = HashMap<PathBuf, (Arc<Table>, usize)>;
+
+/// Reads what a table imports, each file once. A mistake in an imported table is reported there.
 pub(super) fn resolve(table: Table) -> Result<Table, Failure> {
     let own = plain(Path::new(&table.source.name));
-    follow(table, &[own])
+    Ok(follow(table, &[own], &mut Known::new())?.0)
 }
 
-fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
+/// Reads what a table at the end of a chain of imports imports, and counts the tables of the longest chain from it on.
+fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known) -> Result<(Table, usize), Failure> {
     let source = table.source.clone();
     let fail = |diagnostic| Failure::new(source.clone(), diagnostic);
     let mut imports = std::mem::take(&mut table.imports);
+    let mut longest = 1;
     for (index, import) in imports.iter().enumerate() {
         names::check_inner(&import.alias.value, "an imported table", import.alias.span).map_err(fail)?;
         if let Some(first) = imports[..index].iter().find(|other| other.alias.value == import.alias.value) {
@@ -44,8 +50,14 @@ fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
             let message = format!("the imports form a circle: {}", shown.collect::<Vec<_>>().join(" -> "));
             return Err(fail(error(message, "leads back").help("move what both need into a table of its own")));
         }
-        if chain.len() == MAX_CHAIN {
+        let length = known.get(&path).map_or(1, |(_, length)| *length);
+        if chain.len() + length > MAX_CHAIN {
             return Err(fail(error(format!("more than {MAX_CHAIN} tables import each other"), "one too many")));
+        }
+        if let Some((read, length)) = known.get(&path) {
+            import.table = Some(read.clone());
+            longest = longest.max(1 + length);
+            continue;
         }
         let text = read_text(&path, MAX_BYTES).map_err(|failure| {
             let reason = failure.diagnostics.first().map_or(String::new(), |d| d.message.clone());
@@ -56,9 +68,13 @@ fn follow(mut table: Table, chain: &[PathBuf]) -> Result<Table, Failure> {
         })?;
         let imported = Source::new(&*name, text);
         let read = read::table(&imported).map_err(|diagnostics| Failure { source: imported, diagnostics })?;
-        let chain: Vec<PathBuf> = chain.iter().cloned().chain([path]).collect();
-        import.table = Some(Arc::new(follow(read, &chain)?));
+        let chain: Vec<PathBuf> = chain.iter().chain([&path]).cloned().collect();
+        let (read, length) = follow(read, &chain, known)?;
+        let read = Arc::new(read);
+        known.insert(path, (read.clone(), length));
+        import.table = Some(read);
+        longest = longest.max(1 + length);
     }
     table.imports = imports;
-    Ok(table)
+    Ok((table, longest))
 }

@@ -204,8 +204,10 @@ impl<'a> Reader<'a> {
                 (None, self.fields(&fields, span, later)?)
             }
         };
-        if clamp.is_some_and(|(lo, hi)| !(lo.is_finite() && hi.is_finite() && lo <= hi)) {
-            return domain("`clamp` needs two finite bounds in ascending order", "in this output".to_owned());
+        let finite = |bound: f64| (bound as f32).is_finite();
+        if clamp.is_some_and(|(lo, hi)| !(finite(lo) && finite(hi) && lo <= hi)) {
+            let message = "`clamp` needs two bounds in ascending order that are finite in f32";
+            return domain(message, "in this output".to_owned());
         }
         match (within, &output) {
             (Within::ListOfLists, Output::Number(_) | Output::Vector(..) | Output::Bool) => {

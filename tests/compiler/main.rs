@@ -3,6 +3,7 @@
 
 mod architecture;
 mod batch;
+mod constants;
 mod emitted_names;
 mod emitted_rust;
 mod generated;
@@ -10,6 +11,7 @@ mod glslang;
 #[cfg(feature = "precise")]
 mod integrals;
 mod intervals;
+mod limits;
 #[cfg(feature = "trial")]
 mod published_numbers;
 #[path = "../support/mod.rs"]

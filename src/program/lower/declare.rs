@@ -184,8 +184,9 @@ impl<'t> Lowering<'t> {
         let domain = match (set, &input.domain.value) {
             (Some(set), _) => Domain::Discrete(self.sets[set.0].clone()),
             (None, table::Domain::Range(lo, hi, unit)) => {
-                if !((*lo as f32).is_finite() && (*hi as f32).is_finite() && lo < hi) {
-                    let message = "a range goes from a smaller to a larger finite number";
+                let (least, most) = (*lo as f32, *hi as f32);
+                if !(least.is_finite() && most.is_finite() && least < most) {
+                    let message = "a range goes from a smaller to a larger number, both finite in f32";
                     let error = Diagnostic::error(codes::DOMAIN, message);
                     return Err(error.at(input.domain.span, "in this domain"));
                 }

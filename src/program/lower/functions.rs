@@ -8,8 +8,9 @@
 
 use std::rc::Rc;
 
+use super::memo::{CallKey, Items};
 use super::scope::Env;
-use super::terms::{Expected, Term, type_error};
+use super::terms::{Call, Expected, Term, type_error};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::operators::BinaryOp;
@@ -177,6 +178,10 @@ impl<'t> Lowering<'t> {
                 self.check_argument(table, parameter, term, *at)?;
             }
         }
+        let key = CallKey::new(scope, name, &terms);
+        if let Some(term) = self.memo.call(&key) {
+            return Ok(term);
+        }
         let parameters = callee.parameters().iter().map(|p| p.value.clone()).zip(terms).collect();
         let inner = Env { parameters: Some(Rc::new(parameters)), scope, ..Env::default() };
         self.calling.push((scope, name));
@@ -194,6 +199,9 @@ impl<'t> Lowering<'t> {
             Callee::Function(function) => self.function_term(function, &inner),
         };
         self.calling.pop();
+        if let Ok(term) = &term {
+            self.memo.remember(key, term);
+        }
         term.map_err(|error| match scope == env.scope {
             true => error,
             // Places in another file cannot be shown here.
@@ -303,11 +311,11 @@ impl<'t> Lowering<'t> {
         let items: Vec<Term> = match over {
             SumOver::Items(list) => {
                 let items = self.constant_list(list, env)?;
-                let item = |me: &mut Self, numbers: &Vec<f64>| match numbers.as_slice() {
-                    [one] => Term::Number(me.pool.number(*one)),
-                    several => Term::Vector(several.iter().map(|n| me.pool.number(*n)).collect()),
+                let mut item = |numbers: &Vec<f64>| match numbers.as_slice() {
+                    [one] => Term::Number(self.pool.number(*one)),
+                    several => Term::Vector(several.iter().map(|n| self.pool.number(*n)).collect()),
                 };
-                items.iter().map(|numbers| item(self, numbers)).collect()
+                items.iter().map(&mut item).collect()
             }
             SumOver::Range(lo, hi) => {
                 let [lo, hi] = [self.whole(lo, env)?, self.whole(hi, env)?];
@@ -321,6 +329,7 @@ impl<'t> Lowering<'t> {
                 (0..count as usize).map(|step| Term::Number(self.pool.number(lo + step as f64))).collect()
             }
         };
+        self.follow(items.len(), span)?;
         let mut total: Option<Term> = None;
         for item in items {
             let value = self.term(term, &env.with_local(variable, item), Expected::Anything)?;
@@ -343,13 +352,8 @@ impl<'t> Lowering<'t> {
     }
 
     /// `poly(x, [c0, c1, c2])`: c0 + x (c1 + x c2)
-    pub(super) fn polynomial(&mut self, arguments: &[Expr], span: Span, env: &Env) -> Result<Term> {
-        let [x, coefficients] = arguments else {
-            let message = format!("`poly` takes 2 arguments, not {}", arguments.len());
-            return Err(Diagnostic::error(codes::CALL, message)
-                .at(span, "wrong number of arguments")
-                .help("`poly(x, [c0, c1, c2])` is c0 + x (c1 + x c2)"));
-        };
+    pub(super) fn polynomial(&mut self, Call { arguments, span, env, .. }: Call<'_>) -> Result<Term> {
+        let (x, coefficients) = (&arguments[0], &arguments[1]);
         let x = self.term(x, env, Expected::Anything)?;
         let coefficients: Vec<ExprId> = if let ExprKind::List(items) = &coefficients.kind {
             // Coefficients are constants as written, also where the function is called with constants.
@@ -368,6 +372,7 @@ impl<'t> Lowering<'t> {
             return Err(type_error(coefficients.span, "something else", expected));
         };
         let terms = coefficients.len();
+        self.follow(terms, span)?;
         if terms > MAX_TERMS {
             let message = format!("a polynomial of {terms} terms");
             return Err(Diagnostic::error(codes::TOO_MANY_TERMS, message).at(span, format!("at most {MAX_TERMS}")));
@@ -432,11 +437,28 @@ impl<'t> Lowering<'t> {
         }
         match &constants[index].value {
             ConstantValue::Number(expr) => {
-                let value = self.constant_number(expr, index, env.scope)?;
+                // In the order written, so that a long chain of constants nests no deeper than a short one.
+                for (earlier, constant) in constants[..index].iter().enumerate() {
+                    if let ConstantValue::Number(expr) = &constant.value {
+                        // A mistake in it is reported where it is used.
+                        let _ = self.known_constant(expr, earlier, env.scope);
+                    }
+                }
+                let value = self.known_constant(expr, index, env.scope)?;
                 Ok(Some(Term::Number(self.pool.number(value))))
             }
             ConstantValue::List(_) => Ok(None),
         }
+    }
+
+    /// The value of a named constant, computed once.
+    fn known_constant(&mut self, expr: &Expr, index: usize, scope: usize) -> Result<f64> {
+        if let Some(known) = self.memo.constants.get(&(scope, index)) {
+            return known.clone();
+        }
+        let value = self.constant_number(expr, index, scope);
+        self.memo.constants.insert((scope, index), value.clone());
+        value
     }
 
     /// The value of a constant expression, which may use the constants declared before it.
@@ -453,7 +475,7 @@ impl<'t> Lowering<'t> {
     }
 
     /// The items of a list of constants.
-    fn constant_list(&mut self, list: &Spanned<String>, env: &Env) -> Result<Vec<Vec<f64>>> {
+    fn constant_list(&mut self, list: &Spanned<String>, env: &Env) -> Result<Items> {
         let constants = &self.scopes[env.scope].constants;
         let lists = || {
             let lists = constants.iter().filter(|c| matches!(c.value, ConstantValue::List(_)));
@@ -482,9 +504,14 @@ impl<'t> Lowering<'t> {
             let at = odd.first().map_or(list.span, |number| number.span);
             return Err(Diagnostic::error(codes::NOT_CONSTANT, message).at(at, format!("not {width} numbers")));
         }
+        if let Some(known) = self.memo.lists.get(&(env.scope, index)) {
+            return Ok(known.clone());
+        }
         let numbers = |me: &mut Self, item: &Vec<Expr>| {
             item.iter().map(|number| me.constant_number(number, index, env.scope)).collect()
         };
-        items.iter().map(|item| numbers(self, item)).collect()
+        let items: Items = Rc::new(items.iter().map(|item| numbers(self, item)).collect::<Result<_>>()?);
+        self.memo.lists.insert((env.scope, index), items.clone());
+        Ok(items)
     }
 }

@@ -71,7 +71,7 @@ impl<'t> Lowering<'t> {
                 return Err(Diagnostic::error(codes::DUPLICATE, message).at(old.span, "again").at(first, "first here"));
             }
         }
-        Ok(Term::Level(to_set, Arc::new(LevelTerm::Map(term, renaming.into()))))
+        Ok(self.level_of(to_set, LevelTerm::Map(term, renaming.into())))
     }
 
     pub(super) fn symmetry(&mut self, symmetry: &'t table::Symmetry) -> Result<Symmetry> {
@@ -136,8 +136,7 @@ impl<'t> Lowering<'t> {
                 Term::Number(expr) => numbers.push((input, expr)),
                 Term::Level(_, term) => levels.push((input, (*term).clone())),
                 Term::Bool(condition) => {
-                    let (one, zero) = (Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
-                    levels.push((input, LevelTerm::If(condition, one, zero)));
+                    levels.push((input, self.truth_as_level(condition)));
                 }
                 Term::Vector(_) | Term::List(_) | Term::Record(_) => {
                     return Err(Diagnostic::error(codes::SYMMETRY, "an input has a single value").at(span, "here"));

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::built_in::{self, Kind};
 use super::scope::Env;
 use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result, SetId};
@@ -28,6 +29,17 @@ pub enum LevelTerm {
 }
 
 impl Lowering<'_> {
+    /// A term of a level.
+    pub(super) fn level_of(&mut self, set: SetId, term: LevelTerm) -> Term {
+        Term::Level(set, self.memo.level(term))
+    }
+
+    /// The level of a `Bool` that a condition is.
+    pub(super) fn truth_as_level(&mut self, condition: CondId) -> LevelTerm {
+        let [no, yes] = [0, 1].map(|level| self.memo.level(LevelTerm::Const(level)));
+        LevelTerm::If(condition, yes, no)
+    }
+
     pub(super) fn equality(&mut self, a: &Expr, b: &Expr, env: &Env) -> Result<CondId> {
         // A bare level name or code takes its meaning from the other side.
         let swap = self.is_bare(a, env) && !self.is_bare(b, env);
@@ -43,7 +55,7 @@ impl Lowering<'_> {
             left = self.level_operand(*set, known, env)?;
         }
         match (&left, &right) {
-            (Term::Number(a), Term::Number(b)) => Ok(self.pool.compare(Comparison::Equal, *a, *b)),
+            (Term::Number(a), Term::Number(b)) => Ok(self.comparison(Comparison::Equal, *a, *b)),
             (Term::Bool(a), Term::Bool(b)) => {
                 let (a, b) = (*a, *b);
                 let not_b = self.pool.not(b);
@@ -86,7 +98,7 @@ impl Lowering<'_> {
     /// Lowers an expression where a level of a set is expected; the name of a level wins.
     fn level_operand(&mut self, set: SetId, expr: &Expr, env: &Env) -> Result<Term> {
         match self.literal_level(set, expr, env)? {
-            Some(level) => Ok(Term::Level(set, Arc::new(LevelTerm::Const(level)))),
+            Some(level) => Ok(self.level_of(set, LevelTerm::Const(level))),
             None => self.term(expr, env, Expected::Level(set)),
         }
     }
@@ -114,17 +126,17 @@ impl Lowering<'_> {
             let base = name.rsplit_once('.').map_or(name, |(base, _)| base);
             return !(matches!(name, "true" | "false") || self.is_defined(name, env) || self.is_defined(base, env));
         }
-        let sides = if let ExprKind::If(_, a, b) = &expr.kind {
-            Some((a.as_ref(), b.as_ref()))
+        let sides: Vec<&Expr> = if let ExprKind::If(_, a, b) = &expr.kind {
+            vec![a, b]
         } else if let ExprKind::Call(function, arguments) = &expr.kind
-            && function.value == "select"
-            && let [a, b, _] = arguments.as_slice()
+            && let Some(built_in) = built_in::named(&function.value)
         {
-            Some((a, b))
+            let parameters = arguments.iter().zip(built_in.parameters);
+            parameters.filter(|(_, (_, kind))| *kind == Kind::Alternative).map(|(argument, _)| argument).collect()
         } else {
-            None
+            Vec::new()
         };
-        sides.is_some_and(|(a, b)| self.is_bare(a, env) && self.is_bare(b, env))
+        !sides.is_empty() && sides.into_iter().all(|side| self.is_bare(side, env))
     }
 
     /// Says how inputs come to have the same levels, if two sets look alike.
@@ -182,10 +194,7 @@ impl Lowering<'_> {
         let term = self.term(value, env, Expected::Anything)?;
         let (set, term) = match term {
             Term::Level(set, term) => (set, term),
-            Term::Bool(condition) => {
-                let term = LevelTerm::If(condition, Arc::new(LevelTerm::Const(1)), Arc::new(LevelTerm::Const(0)));
-                (SetId::BOOL, Arc::new(term))
-            }
+            Term::Bool(condition) => (SetId::BOOL, Arc::new(self.truth_as_level(condition))),
             other @ (Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_)) => {
                 return Err(type_error(value.span, &self.describe(&other), "only discrete inputs have levels"));
             }

@@ -4,20 +4,25 @@
 //! inputs are the parameters, its rows its cases; a function without cases has
 //! a single row, number 0, that is always taken.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 use super::terms::Expected;
-use super::{Lowering, Result, calls, functions::Callee, keep, once, written};
+use super::{Lowering, Result, built_in, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
-use crate::program::operators::Operator;
 use crate::program::{Accuracy, Assumption, Function, Limit, Line, Program, Row};
 use crate::table::{self, FunctionBody, HitPolicy, Table, names};
 use crate::text::closest::nearest;
 
 /// Checks a table of functions.
 pub(in crate::program) fn functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
-    check_imports(table)?;
+    check_imports(table, &mut HashSet::new())?;
+    own_functions(table)
+}
+
+/// Checks a table of functions whose imports are checked.
+fn own_functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
     let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
     let mut errors = Vec::new();
     // Declarations are judged once, with all inputs; without sound ones nothing else could be.
@@ -43,16 +48,20 @@ pub(in crate::program) fn functions(table: &Table) -> std::result::Result<Vec<Pr
     if errors.is_empty() { Ok(programs) } else { Err(fail(errors)) }
 }
 
-/// Checks the tables that a table imports. What is wrong with one is said of it.
-pub(super) fn check_imports(table: &Table) -> std::result::Result<(), Failure> {
+/// Checks the tables that a table imports, each once, by however many ways it is imported.
+/// What is wrong with one is said of it.
+pub(super) fn check_imports(table: &Table, checked: &mut HashSet<*const Table>) -> std::result::Result<(), Failure> {
     for import in &table.imports {
-        if let Some(imported) = &import.table {
-            Program::check_all(imported)?;
-            if imported.functions.is_empty() {
-                let error = Diagnostic::error(codes::IMPORT, format!("`{}` has no functions", import.path.value));
-                let error = error.at(import.path.span, "a table of cases").help("only functions can be called");
-                return Err(Failure::new(table.source.clone(), error));
-            }
+        let Some(imported) = &import.table else { continue };
+        if imported.functions.is_empty() {
+            Program::check(imported)?;
+            let error = Diagnostic::error(codes::IMPORT, format!("`{}` has no functions", import.path.value));
+            let error = error.at(import.path.span, "a table of cases").help("only functions can be called");
+            return Err(Failure::new(table.source.clone(), error));
+        }
+        if checked.insert(Arc::as_ptr(imported)) {
+            check_imports(imported, checked)?;
+            own_functions(imported)?;
         }
     }
     Ok(())
@@ -293,8 +302,7 @@ impl<'t> Lowering<'t> {
                 Callee::Function(function) => (&function.name, "a function"),
             };
             let checked = names::check_inner(&name.value, what, name.span).and_then(|()| {
-                let built_in = Operator::named(&name.value).is_some() || calls::BUILT_IN.contains(&name.value.as_str());
-                if built_in {
+                if built_in::signatures().any(|function| function.name == name.value) {
                     let message = format!("`{}` is a function of the language", name.value);
                     return Err(Diagnostic::error(codes::RESERVED_NAME, message).at(name.span, "choose another name"));
                 }

@@ -1,5 +1,7 @@
 //! Table → program: declarations first, then rows, collecting every mistake.
 
+mod arithmetic;
+mod built_in;
 mod calls;
 mod declare;
 mod draw;
@@ -9,6 +11,7 @@ mod groups;
 mod images;
 mod levels;
 mod library;
+mod memo;
 mod output;
 mod rows;
 mod scope;
@@ -26,9 +29,11 @@ use super::pool::{InputSet, Pool};
 use super::{Assumption, InputId, Program};
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::{self, Table, names};
+use memo::Memo;
 use scope::Env;
 use terms::Term;
 
+pub use built_in::{Signature, signatures};
 pub use levels::LevelTerm;
 pub(super) use library::{functions, no_function};
 
@@ -63,6 +68,8 @@ struct Lowering<'t> {
     calling: Vec<(usize, &'t str)>,
     /// True if sine and cosine mean the portable ones.
     portable: bool,
+    /// The calls written out before, and how much work that was.
+    memo: Memo<'t>,
     /// The depth to which [`Lowering::term`] is nested in itself.
     depth: u32,
     input_index: HashMap<&'t str, InputId>,
@@ -78,7 +85,7 @@ struct Lowering<'t> {
 /// Checks a table.
 pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
     let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
-    library::check_imports(table)?;
+    library::check_imports(table, &mut HashSet::new())?;
     let mut errors = Vec::new();
     let mut lowering = Lowering::new(table);
     // Without sound declarations nothing that follows could be judged.
@@ -118,6 +125,7 @@ impl<'t> Lowering<'t> {
             import_index: HashMap::new(),
             calling: Vec::new(),
             portable: false,
+            memo: Memo::default(),
             depth: 0,
             input_index: HashMap::new(),
             set_index: HashMap::new(),
@@ -130,8 +138,11 @@ impl<'t> Lowering<'t> {
         lowering
     }
 
-    /// Gives a table and those that it imports a scope each.
+    /// Gives a table and those that it imports a scope each, by whatever way they are imported.
     fn open_scope(&mut self, table: &'t Table) -> usize {
+        if let Some(known) = self.scopes.iter().position(|open| std::ptr::eq(*open, table)) {
+            return known;
+        }
         let scope = self.scopes.len();
         self.scopes.push(table);
         for import in &table.imports {

@@ -183,7 +183,7 @@ impl<'t> Lowering<'t> {
             Some(SetId::BOOL) => Ok(Term::Bool(self.condition(value, env)?)),
             Some(set) => {
                 if let Some(level) = self.literal_level(set, value, env)? {
-                    return Ok(Term::Level(set, Arc::new(LevelTerm::Const(level))));
+                    return Ok(self.level_of(set, LevelTerm::Const(level)));
                 }
                 match self.term(value, env, Expected::Level(set))? {
                     Term::Level(found, term) if found == set => Ok(Term::Level(set, term)),

@@ -63,7 +63,7 @@ impl Lowering<'_> {
         // A level, where one is expected.
         if let Expected::Level(set) = expected {
             return match self.sets[set.0].find(name) {
-                Some(level) => Ok(Term::Level(set, Arc::new(LevelTerm::Const(level)))),
+                Some(level) => Ok(self.level_of(set, LevelTerm::Const(level))),
                 None => Err(self.unknown_level(set, name, span)),
             };
         }
@@ -155,7 +155,7 @@ impl Lowering<'_> {
         match self.input_sets[input.index()] {
             None => Term::Number(self.pool.input(input)),
             Some(SetId::BOOL) => Term::Bool(self.pool.level(input, LevelSet::one(1), 2)),
-            Some(set) => Term::Level(set, Arc::new(LevelTerm::Input(input))),
+            Some(set) => self.level_of(set, LevelTerm::Input(input)),
         }
     }
 

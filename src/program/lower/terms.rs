@@ -17,7 +17,7 @@ use crate::table::Output;
 use crate::table::expr::{self as ast, Expr, ExprKind};
 
 /// Deepest and largest value of one row, references included.
-const MAX_DEPTH: u32 = 400;
+const MAX_DEPTH: u32 = 640;
 const MAX_SIZE: u32 = 50_000;
 /// Most different terms of a table or of one of its functions.
 const MAX_TERMS: usize = 100_000;
@@ -61,6 +61,13 @@ impl Expected {
 }
 
 impl Term {
+    /// The numbers that it consists of; none for a condition or level.
+    pub(super) fn numbers(&self) -> Vec<ExprId> {
+        let (mut exprs, mut conditions) = (Vec::new(), Vec::new());
+        self.parts(&mut exprs, &mut conditions);
+        exprs
+    }
+
     /// The expressions and conditions that it consists of; levels have none.
     fn parts(&self, exprs: &mut Vec<ExprId>, conditions: &mut Vec<CondId>) {
         match self {
@@ -71,6 +78,15 @@ impl Term {
             Term::Record(parts) => parts.iter().for_each(|(_, part)| part.parts(exprs, conditions)),
         }
     }
+}
+
+/// A call as it is written.
+#[derive(Clone, Copy)]
+pub(super) struct Call<'c> {
+    pub(super) arguments: &'c [Expr],
+    pub(super) span: Span,
+    pub(super) env: &'c Env,
+    pub(super) expected: &'c Expected,
 }
 
 impl Lowering<'_> {
@@ -84,6 +100,7 @@ impl Lowering<'_> {
                 .at(expr.span, "not followed any further")
                 .help(format!("through all of them, expressions nest at most {MAX_OPEN} deep")));
         }
+        self.follow(1, expr.span)?;
         self.depth += 1;
         let term = self.term_inner(expr, env, expected);
         self.depth -= 1;
@@ -100,7 +117,7 @@ impl Lowering<'_> {
         if facts.is_empty() {
             return Ok(());
         }
-        if self.pool.len() > MAX_TERMS {
+        if self.pool.len().max(self.pool.conditions()) > MAX_TERMS {
             let message = "with names, references and calls written out, the table is too large";
             return Err(Diagnostic::error(codes::TOO_DEEP, message)
                 .at(span, "too much from here on")
@@ -126,7 +143,7 @@ impl Lowering<'_> {
             && matches!(&expr.kind, ExprKind::Number(_) | ExprKind::Unary(ast::UnaryOp::Negate, _))
             && let Some(level) = self.literal_level(set, expr, env)?
         {
-            return Ok(Term::Level(set, Arc::new(LevelTerm::Const(level))));
+            return Ok(self.level_of(set, LevelTerm::Const(level)));
         }
         match &expr.kind {
             ExprKind::Number(value) => Ok(Term::Number(self.constant(*value, span)?)),
@@ -141,7 +158,7 @@ impl Lowering<'_> {
             }
             ExprKind::Binary(op, a, b) => self.binary(*op, a, b, span, env),
             ExprKind::In(value, levels) => self.membership(value, levels, env),
-            ExprKind::Call(function, arguments) => self.call(function, arguments, span, env, expected),
+            ExprKind::Call(function, arguments) => self.call(function, Call { arguments, span, env, expected: &expected }),
             ExprKind::Swizzle(value, letters) => {
                 let value = self.term(value, env, Expected::Anything)?;
                 self.swizzle(value, &letters.value, letters.span)
@@ -178,24 +195,6 @@ impl Lowering<'_> {
                         .help("lists stand where the output has one: they have no names and are not calculated with"),
                 })
             }
-        }
-    }
-
-    pub(super) fn constant(&mut self, value: f64, span: Span) -> Result<ExprId> {
-        let expr = self.pool.number(value);
-        self.finite(expr, span)
-    }
-
-    /// Refuses constants that no shader can contain.
-    pub(super) fn finite(&mut self, expr: ExprId, span: Span) -> Result<ExprId> {
-        match self.pool.constant(expr) {
-            Some(value) if !(value as f32).is_finite() => {
-                let shown = if value.is_nan() { "not a number".to_owned() } else { format!("{value:e}") };
-                Err(Diagnostic::error(codes::NOT_FINITE, format!("this constant is {shown}"))
-                    .at(span, "not a finite f32 number")
-                    .help("constants are folded by the compiler; shading languages refuse such a constant"))
-            }
-            _ => Ok(expr),
         }
     }
 
@@ -256,10 +255,7 @@ impl Lowering<'_> {
                 let strict = matches!(op, Op::Less | Op::Greater);
                 let comparison = if strict { Comparison::Less } else { Comparison::LessEqual };
                 let (x, y) = if matches!(op, Op::Less | Op::LessEqual) { (x, y) } else { (y, x) };
-                Ok(Term::Bool(match self.calling.is_empty() {
-                    true => self.pool.compare(comparison, x, y),
-                    false => self.pool.recompare(comparison, x, y),
-                }))
+                Ok(Term::Bool(self.comparison(comparison, x, y)))
             }
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder => {
                 let Some(op) = BinaryOp::of_symbol(op) else {
@@ -267,22 +263,40 @@ impl Lowering<'_> {
                 };
                 let left = self.term(a, env, Expected::Anything)?;
                 let right = self.term(b, env, Expected::Anything)?;
-                // What a function does with its arguments may be undefined there, as long as it says so.
-                let divides = matches!(op, BinaryOp::Divide | BinaryOp::Remainder) && self.calling.is_empty();
-                if divides && self.has_zero(&right) {
-                    return Err(Diagnostic::error(codes::DIVISION_BY_ZERO, "division by zero")
-                        .at(b.span, "this is always zero"));
-                }
+                // In a function, what is constant whatever it is called with is a mistake all the same.
+                let calling = match self.is_constant(b, env) {
+                    true => std::mem::take(&mut self.calling),
+                    false => Vec::new(),
+                };
+                let divisors = right.numbers().into_iter().try_for_each(|part| self.check_divisor(op, part, b.span));
+                self.calling.extend(calling);
+                divisors?;
                 self.map2(op, left, right, span)
             }
         }
     }
 
-    pub(super) fn has_zero(&self, term: &Term) -> bool {
-        match term {
-            Term::Number(e) => self.pool.constant(*e) == Some(0.0),
-            Term::Vector(parts) => parts.iter().any(|e| self.pool.constant(*e) == Some(0.0)),
-            Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_) => false,
+    /// Returns whether an expression is written with nothing but constants.
+    fn is_constant(&self, expr: &Expr, env: &Env) -> bool {
+        match &expr.kind {
+            ExprKind::Number(_) => true,
+            ExprKind::Name(name) => {
+                let hidden = env.locals.iter().any(|(local, _)| local.value == *name);
+                !hidden && self.scopes[env.scope].constants.iter().any(|constant| constant.name.value == *name)
+            }
+            ExprKind::Unary(..) | ExprKind::Binary(..) | ExprKind::Swizzle(..) => {
+                expr.parts().into_iter().all(|part| self.is_constant(part, env))
+            }
+            ExprKind::In(..)
+            | ExprKind::Call(..)
+            | ExprKind::Case(..)
+            | ExprKind::If(..)
+            | ExprKind::Let(..)
+            | ExprKind::List(_)
+            | ExprKind::With(..)
+            | ExprKind::Between(..)
+            | ExprKind::Sum(..)
+            | ExprKind::Record(_) => false,
         }
     }
 
@@ -303,7 +317,7 @@ impl Lowering<'_> {
                 Ok(Term::Record(parts.map(part).collect::<Result<_>>()?))
             }
             (Term::Level(s, a), Term::Level(t, b)) if s == t => {
-                Ok(Term::Level(*s, Arc::new(LevelTerm::If(condition, a.clone(), b.clone()))))
+                Ok(self.level_of(*s, LevelTerm::If(condition, a.clone(), b.clone())))
             }
             _ => {
                 let message = format!("the other side is {}", self.describe(&then));

@@ -180,3 +180,66 @@ fn long_chains_of_names_are_refused_in_time() {
         assert_eq!(program.is_ok(), fits, "{:?}", program.err().map(|e| e.diagnostics[0].message.clone()));
     }
 }
+
+/// Functions, helpers and constants that use the next one twice, each with a term of its own kind as argument.
+#[test]
+fn calls_that_double_cost_no_exponential_time() {
+    let check = |rest: String| {
+        let text = format!(
+            r#"Table(language: 1, name: "t", inputs: {{"x": Range(from: 0, to: 1), "b": Bool(),
+                "H": Levels(values: {{"none": 0, "right": 1, "left": 2}})}}, {rest})"#
+        );
+        Table::parse(Source::new("test.ron", text)).and_then(|table| Program::check_all(&table))
+    };
+    let chain = |last: &str, call: fn(usize) -> String| -> String {
+        let helpers: String = (0..40).map(|i| format!("\"h{i}(a)\": \"{}\", ", call(i + 1))).collect();
+        format!("helpers: {{{helpers} \"h40(a)\": \"{last}\"}}, ")
+    };
+    let value =
+        |value: &str| format!("functions: {{\"f\": Function(parameters: [\"x\", \"b\", \"H\"], value: \"{value}\")}}");
+    let forms = [
+        (chain("a", |i| format!("h{i}(a) + h{i}(a)")), "h0(x)"),
+        (chain("a", |i| format!("h{i}(a) * h{i}(a)")), "h0(vec2(x, 1)).y"),
+        (chain("a", |i| format!("h{i}({{u: a.u, v: 1}}) + h{i}({{u: a.u, v: 1}})")), "h0({u: x, v: x}).v"),
+        (chain("a", |i| format!("h{i}(a) || h{i}(!a)")), "f32(h0(b))"),
+        // Equal levels that are made anew each time.
+        (
+            chain("f32(a)", |i| {
+                format!("h{i}(if x9 {{ a }} else {{ a }}) + h{i}(if x9 {{ a }} else {{ a }})").replace("x9", "1 < 2")
+            }),
+            "h0(H)",
+        ),
+        (
+            chain("f32(a)", |i| {
+                format!("h{i}(if a == left {{ a }} else {{ a }}) + h{i}(if a == left {{ a }} else {{ a }})")
+            }),
+            "h0(H)",
+        ),
+    ];
+    for (helpers, call) in forms {
+        let result = check(helpers.clone() + &value(call));
+        assert!(result.is_ok(), "{call}: {}\n{helpers}", result.err().map_or(String::new(), |f| f.to_string()));
+    }
+    let functions: String = (0..40)
+        .map(|i| format!("\"q{i}\": Function(parameters: [\"x\"], value: \"q{0}(x) + q{0}(x)\"), ", i + 1))
+        .collect();
+    assert!(check(format!("functions: {{{functions} \"q40\": Function(parameters: [\"x\"], value: \"x\")}}")).is_ok());
+    let constants: String = (1..60).map(|i| format!(", \"c{i}\": \"c{0} + c{0} - c{0}\"", i - 1)).collect();
+    let constants = format!("constants: {{\"c0\": 1{constants}, \"nodes\": [\"c59\", \"c59 + c58\"]}}, ");
+    let result = check(constants + &value("c59 * x + sum(n in nodes, n * x)"));
+    assert!(result.is_ok(), "{}", result.err().map_or(String::new(), |f| f.to_string()));
+    // What differs each time is refused where it gets too much.
+    let result = check(chain("a", |i| format!("h{i}(2 * a) + h{i}(a + {i})")) + &value("h0(x)"));
+    assert!(result.is_err_and(|failure| failure.to_string().contains("U0202")));
+}
+
+/// All coefficients that a polynomial may have, in the value of a case.
+#[test]
+fn a_polynomial_may_be_as_long_as_it_may() {
+    let of = |count: usize| {
+        let coefficients: Vec<String> = (1..=count).map(|i| format!("0.{i}")).collect();
+        let value = format!("0.5 + 0.25 * poly(x * x + 1, [{}])", coefficients.join(", "));
+        first_error(check("", &format!("output: Number(), cases: [Case(id: 1, when: \"a\", value: \"{value}\")]")))
+    };
+    assert_eq!((of(256), of(257)), ("none".to_owned(), "a polynomial of 257 terms".to_owned()));
+}

@@ -113,11 +113,12 @@ impl TernaryOp {
         (self.row().image)(a, b, c)
     }
 
-    /// The two operands that must ascend and do not, as far as operands are known.
+    /// The two operands that must ascend and do not, as far as operands are known: as
+    /// numbers, or as what is left of them in `f32`.
     pub fn misordered(self, operands: [Option<f64>; 3]) -> Option<(f64, f64)> {
         let Ascending { lower, upper, strictly } = self.row().ascending?;
         let (lo, hi) = (operands[lower]?, operands[upper]?);
-        (lo > hi || strictly && lo == hi).then_some((lo, hi))
+        (lo > hi || strictly && lo as f32 == hi as f32).then_some((lo, hi))
     }
 }
 
