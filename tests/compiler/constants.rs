@@ -37,7 +37,14 @@ const EXTREMES: &[&str] = &[
 ];
 
 fn constant() -> impl Strategy<Value = String> {
-    prop::sample::select(EXTREMES).prop_map(str::to_owned)
+    let extreme = prop::sample::select(EXTREMES);
+    let modest = prop::sample::select(&["0.5", "3", "0.1", "-2", "1"][..]);
+    prop_oneof![1 => extreme, 2 => modest].prop_map(str::to_owned)
+}
+
+/// A number that may stand somewhere, or now and then any.
+fn declared(usual: &'static str) -> impl Strategy<Value = String> {
+    prop_oneof![7 => Just(usual.to_owned()), 1 => constant()]
 }
 
 /// An expression over constants and two inputs, with every way in which a table makes constants.
@@ -93,7 +100,8 @@ fn fill(form: &str, parts: &[String]) -> String {
 
 /// A table with a value, a condition, and constants wherever else there are any.
 fn table() -> impl Strategy<Value = String> {
-    (expression(), expression(), prop::collection::vec(constant(), 5)).prop_map(|(value, other, n)| {
+    let bounds = (declared("-1e30"), declared("1e30"), declared("2"), declared("0.5"), declared("-3"));
+    (expression(), expression(), bounds).prop_map(|(value, other, n)| {
         let calls = [&value, &other].iter().any(|text| text.contains("inv(") || text.contains("part("));
         let helpers =
             if calls { r#""inv(a)": "1 / (1 - a)", "part(a)": [("1", "abs(a) < 0.5"), "a * a / a"]"# } else { "" };
@@ -106,7 +114,7 @@ fn table() -> impl Strategy<Value = String> {
     output: Number(clamp: ({}, 1e38)),
     cases: [Case(id: 1, when: "{other} < x", value: "{value}")],
     default: 0)"#,
-            n[0], n[1], n[2], n[3], n[4]
+            n.0, n.1, n.2, n.3, n.4
         )
     })
 }

@@ -37,15 +37,15 @@ fn imports_of_one_file() {
     let directory = tempfile::tempdir().unwrap();
     let write = |name: &str, text: String| std::fs::write(directory.path().join(name), text).unwrap();
     let functions: Vec<String> =
-        (0..50).map(|i| format!(r#""f{i}": Function(parameters: ["x"], value: "x * {i} + 1")"#)).collect();
+        (0..50).map(|i| format!(r#""g{i}": Function(parameters: ["x"], value: "x * {i} + 1")"#)).collect();
     let head = |name: &str| format!(r#"Table(language: 1, name: "{name}", inputs: {{"x": Range(from: 0, to: 1)}}"#);
     write("link0.ron", format!("{}, functions: {{{}}})", head("link0"), functions.join(", ")));
     // Each imports the one before twelve times: 12^6 ways lead to the first.
     for link in 1..7 {
         let imports: Vec<String> = (0..12).map(|i| format!(r#""a{i}": "link{}.ron""#, link - 1)).collect();
-        let terms: Vec<String> = (0..12).map(|i| format!("a{i}.f{i}(x)")).collect();
+        let terms: Vec<String> = (0..12).map(|i| format!("a{i}.g{i}(x)")).collect();
         let functions: Vec<String> = (0..12)
-            .map(|i| format!(r#""f{i}": Function(parameters: ["x"], value: "{}")"#, terms.join(" + ")))
+            .map(|i| format!(r#""g{i}": Function(parameters: ["x"], value: "{}")"#, terms.join(" + ")))
             .collect();
         let (imports, functions) = (imports.join(", "), functions.join(", "));
         write(
@@ -61,7 +61,7 @@ fn imports_of_one_file() {
     // The chain is bounded however often a table in it was read before.
     for link in 7..9 {
         let text = format!(
-            r#"{}, imports: {{"a": "link{}.ron"}}, functions: {{"f0": Function(parameters: ["x"], value: "a.f0(x)")}})"#,
+            r#"{}, imports: {{"a": "link{}.ron"}}, functions: {{"g0": Function(parameters: ["x"], value: "a.g0(x)")}})"#,
             head(&format!("link{link}")),
             link - 1
         );

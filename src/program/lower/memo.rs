@@ -31,6 +31,8 @@ pub(super) struct Memo<'t> {
     pub(super) lists: HashMap<(usize, usize), Items>,
     /// The number of expressions followed so far.
     followed: usize,
+    /// The refusal of any more, which is one mistake wherever it is met again.
+    refusal: Option<Diagnostic>,
 }
 
 /// A level term; its parts are known by their place, as equal ones share it.
@@ -118,9 +120,12 @@ impl Lowering<'_> {
         if self.memo.followed <= MAX_FOLLOWED + self.table.source.text.len() {
             return Ok(());
         }
-        let message = "with names, references, calls and sums written out, the table is too large";
-        Err(Diagnostic::error(codes::TOO_DEEP, message)
-            .at(span, "not followed any further")
-            .help(format!("at most {MAX_FOLLOWED} expressions beyond those that are written")))
+        let refusal = self.memo.refusal.get_or_insert_with(|| {
+            let message = "with names, references, calls and sums written out, the table is too large";
+            Diagnostic::error(codes::TOO_DEEP, message)
+                .at(span, "not followed any further")
+                .help(format!("at most {MAX_FOLLOWED} expressions beyond those that are written"))
+        });
+        Err(refusal.clone())
     }
 }
