@@ -12,7 +12,7 @@ use umbrage::program::{Program, Value};
 fn the_longest_polynomial() {
     let coefficients: Vec<String> =
         (0..256).map(|power| if power % 85 == 0 { "1" } else { "0.5" }.to_owned()).collect();
-    let program = parsed(&format!(
+    let program = parsed(format!(
         r#"Table(language: 1, name: "t", hit_policy: First, inputs: {{"x": Range(from: -1, to: 1), "d": Bool()}},
             output: Number(), cases: [Case(id: 1, when: "d && x < 0.75", value: "poly(x, [{}])")], default: 0)"#,
         coefficients.join(", ")
