@@ -51,8 +51,8 @@ impl Body<'_, '_> {
     }
 
     /// Declares locals for the constants of operations that must not be
-    /// evaluated by the shader's compiler: it would refuse `1.0 / 0.0`, or
-    /// compute it more exactly than the table does.
+    /// evaluated by the shader's compiler: it would refuse `1.0 / 0.0`, compute
+    /// what has constant operands only more exactly than the table does, or not know how.
     pub(in crate::emit) fn computed_constants(&mut self, exprs: &[ExprId], conditions: &[CondId]) {
         let mut found = Vec::new();
         let (mut seen_exprs, mut seen_conds) = (BTreeSet::new(), BTreeSet::new());
@@ -75,7 +75,8 @@ impl Body<'_, '_> {
                 }
                 let node = pool.node(expr);
                 conditions.extend(node.condition());
-                if !pool.folds(node) {
+                let known = node.condition().is_none() && node.children().all(|child| pool.constant(child).is_some());
+                if known || !pool.folds(node) {
                     found.extend(node.children().filter(|child| pool.constant(*child).is_some()));
                 }
                 exprs.extend(node.children());

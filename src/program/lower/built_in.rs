@@ -255,7 +255,8 @@ impl Lowering<'_> {
 
 fn select(lowering: &mut Lowering<'_>, call: Call<'_>) -> Result<Term> {
     let condition = lowering.condition(&call.arguments[2], call.env)?;
-    let (other, then) = lowering.alternatives(&call.arguments[0], &call.arguments[1], call.env, call.expected.clone())?;
+    let (other, then) =
+        lowering.alternatives(&call.arguments[0], &call.arguments[1], call.env, call.expected.clone())?;
     lowering.choose(condition, then, other, call.span)
 }
 

@@ -158,7 +158,9 @@ impl Lowering<'_> {
             }
             ExprKind::Binary(op, a, b) => self.binary(*op, a, b, span, env),
             ExprKind::In(value, levels) => self.membership(value, levels, env),
-            ExprKind::Call(function, arguments) => self.call(function, Call { arguments, span, env, expected: &expected }),
+            ExprKind::Call(function, arguments) => {
+                self.call(function, Call { arguments, span, env, expected: &expected })
+            }
             ExprKind::Swizzle(value, letters) => {
                 let value = self.term(value, env, Expected::Anything)?;
                 self.swizzle(value, &letters.value, letters.span)
