@@ -28,6 +28,7 @@ pub mod analyse;
 pub mod atlas;
 pub mod build;
 pub mod capture;
+pub mod certificate;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod diag;

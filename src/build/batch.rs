@@ -252,3 +252,22 @@ fn read_imports(table: &Table, batch: &mut Batch) {
         read_imports(imported, batch);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A plan that were not equal to its table is said as a warning: the others are built.
+    #[test]
+    fn refused_plans_are_warnings() {
+        let failure = |code| Failure::bare("t.ron", Diagnostic::error(code, "the plan `tree`"));
+        let skipped = vec![
+            ("tree".to_owned(), failure(codes::NOT_PROVED)),
+            ("orbit".to_owned(), failure(codes::NOT_APPLICABLE)),
+            ("nested".to_owned(), failure(codes::PROOF_TOO_LONG)),
+        ];
+        let built = Built { table: "t".to_owned(), plans: Vec::new(), skipped, files: Vec::new() };
+        let batch = Batch { messages: refused(&built).collect(), ..Batch::default() };
+        assert!(batch.messages.len() == 1 && batch.warned() && !batch.failed());
+    }
+}

@@ -13,6 +13,7 @@ mod tables;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crate::certificate::Certificate;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::{self, SiblingFile, Target};
 use crate::plan::{Plan, PlanOptions, Shape, Weights};
@@ -41,6 +42,9 @@ pub struct Options {
     pub assume: bool,
     /// The frequency of each table's states, by its name.
     pub weights: BTreeMap<String, Weights>,
+    /// True if a [`Certificate`] of each plan lies beside its files: `table/plan.smt2`, of a function
+    /// `table/function.smt2`.
+    pub certificates: bool,
 }
 
 impl Default for Options {
@@ -54,6 +58,7 @@ impl Default for Options {
             tuned: Vec::new(),
             assume: false,
             weights: BTreeMap::new(),
+            certificates: false,
         }
     }
 }
@@ -89,6 +94,8 @@ pub struct BuiltPlan {
     pub proof: Proof,
     /// The devices on which it was chosen.
     pub chosen_on: Vec<String>,
+    /// The operations that linear arithmetic does not reach in its certificate, in words; `None` without certificates.
+    pub beyond: Option<Vec<String>>,
 }
 
 /// A plan to make.
@@ -149,10 +156,30 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
         let path = Path::new(&built.table).join(format!("functions.{}", target.extension()));
         built.files.push(Artifact { path, contents: emit::emit_all(&proved, *target, &siblings)? });
     }
+    let mut beyond = options.certificates.then(Vec::new);
+    for proved in &proved {
+        let name = proved.plan().program.function.as_ref().map_or("", |function| function.name.as_str());
+        let own = certificate(&mut built, proved.plan(), name, options);
+        if let (Some(all), Some(own)) = (&mut beyond, own) {
+            all.extend(own);
+        }
+    }
+    if let Some(all) = &mut beyond {
+        all.sort_unstable();
+        all.dedup();
+    }
     let proof = proved.iter().map(|proved| proved.proof().clone()).reduce(Proof::and);
-    let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new() };
+    let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new(), beyond };
     built.plans.extend(proof.map(plan));
     Ok(built)
+}
+
+/// Adds the certificate of a plan, if such files are asked for, and returns what linear arithmetic does not reach in it.
+fn certificate(built: &mut Built, plan: &Plan<'_>, name: &str, options: &Options) -> Option<Vec<String>> {
+    let certificate = options.certificates.then(|| Certificate::new(plan))?;
+    let path = Path::new(&built.table).join(format!("{name}.smt2"));
+    built.files.push(Artifact { path, contents: certificate.text.into_bytes() });
+    Some(certificate.beyond)
 }
 
 /// The files of a plan, which lie in one directory.
@@ -197,7 +224,8 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
             let contents = words.iter().flat_map(|word| word.to_le_bytes()).collect();
             built.files.push(Artifact { path: path("lookup.bin"), contents });
         }
-        built.plans.push(BuiltPlan { name, proof: proved.proof().clone(), chosen_on: wanted.chosen_on });
+        let beyond = certificate(&mut built, proved.plan(), &name, options);
+        built.plans.push(BuiltPlan { name, proof: proved.proof().clone(), chosen_on: wanted.chosen_on, beyond });
     }
     match built.skipped.first() {
         Some((_, reason)) if built.plans.is_empty() => Err(reason.clone()),

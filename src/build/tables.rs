@@ -127,6 +127,12 @@ impl Tables {
         self
     }
 
+    /// Also writes what each plan and its table mean as SMT-LIB 2, for a solver to compare: `TABLE/PLAN.smt2`.
+    pub fn certificates(mut self) -> Self {
+        self.request.options.certificates = true;
+        self
+    }
+
     /// Lets plans do anything where a table's assumptions do not hold.
     pub fn assume(mut self) -> Self {
         self.request.options.assume = true;

@@ -48,6 +48,10 @@ pub(super) struct Arguments {
     /// casefree, integrals
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     skeleton: Vec<String>,
+    /// Also write what each plan and its table mean as SMT-LIB 2, to TABLE/PLAN.smt2: a solver such as z3 or cvc5 that
+    /// answers `unsat` has found them equal, by no rule of the proof's
+    #[arg(long)]
+    certificates: bool,
     /// Build again whenever a table, a profile or a tuned choice changes, until interrupted. While there are errors,
     /// what was generated before stays
     #[arg(long)]
@@ -101,7 +105,7 @@ fn once(arguments: &Arguments, request: &Request, report: &Report) -> Result<(Ou
 impl Arguments {
     /// The order that the arguments amount to.
     fn request(&self) -> Request {
-        let mut options = Options { assume: self.assume, ..Options::default() };
+        let mut options = Options { assume: self.assume, certificates: self.certificates, ..Options::default() };
         if !self.plan.is_empty() {
             (options.shapes, options.auto) = plan::split(&self.plan);
         }
@@ -145,6 +149,13 @@ fn summary(
                 devices => format!("; chosen on {}", devices.join(", ")),
             };
             writeln!(out, "  {:<14} proved {}{chosen}", plan.name, plan.proof)?;
+            match plan.beyond.as_deref() {
+                None => {}
+                Some([]) => writeln!(out, "  {:<14} certificate: linear", "")?,
+                Some(beyond) => {
+                    writeln!(out, "  {:<14} certificate, beyond linear arithmetic: {}", "", beyond.join("; "))?
+                }
+            }
         }
         for (name, reason) in &built.skipped {
             let why = match is_unsuitable(reason) {

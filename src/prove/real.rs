@@ -91,6 +91,8 @@ impl Prover<'_, '_> {
             if !conditions.into_iter().all(|condition| machine.holds(condition, View::PLAIN)) {
                 return Ok(());
             }
+            // An assumption is about the numbers that come in, not about what code makes of them.
+            machine.take_compared();
         }
         machine.take_fetched();
         let (row, _, want) = machine.run_to_line(self.candidates.of(state));

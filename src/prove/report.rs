@@ -20,7 +20,8 @@ pub struct Proof {
     pub paths: usize,
     /// Paths on which the result is the same expression.
     pub identical: usize,
-    /// Largest difference in `f32` on the other paths; `None` if no bound is known.
+    /// Largest difference in `f32` on the other paths, where the assumptions that the plan makes use of hold as
+    /// statements on real numbers; `None` if no bound is known.
     pub rounding: Option<f64>,
 }
 

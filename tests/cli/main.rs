@@ -3,6 +3,7 @@
 
 mod atlas;
 mod bad_input;
+mod certificates;
 mod eval;
 mod explain;
 mod files;

@@ -3,6 +3,7 @@
 
 mod architecture;
 mod batch;
+mod certificates;
 mod constants;
 mod emitted_names;
 mod emitted_rust;

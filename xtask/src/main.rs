@@ -80,8 +80,9 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
     if set_up {
         vulkan_driver(steps)?;
     }
-    let glslang = tool(steps, set_up, "glslangValidator", "glslang-tools", "GLSL and HLSL");
-    let spirv_val = tool(steps, set_up, "spirv-val", "spirv-tools", "SPIR-V");
+    let glslang = tool(steps, set_up, "glslangValidator", "glslang-tools", "generated GLSL and HLSL is");
+    let spirv_val = tool(steps, set_up, "spirv-val", "spirv-tools", "generated SPIR-V is");
+    let solvers = ["z3", "cvc5"].map(|solver| tool(steps, set_up, solver, solver, "certificates of plans are"));
     let tests = |arguments: &[&str]| {
         let mut command = cargo(arguments);
         command.env("UMBRAGE_REQUIRE_ADAPTER", "1");
@@ -90,6 +91,9 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
         }
         if spirv_val {
             command.env("UMBRAGE_REQUIRE_SPIRV_VAL", "1");
+        }
+        if solvers == [true, true] {
+            command.env("UMBRAGE_REQUIRE_SOLVERS", "1");
         }
         command
     };
@@ -121,7 +125,10 @@ fn test(steps: &mut Steps, arguments: &[String]) -> Result {
 fn fast(steps: &mut Steps, arguments: &[String]) -> Result {
     // One package with its default features, so that what the full run has built is used.
     let mut tests = cargo(&["test", "--features", "umbrage/trial", "--lib", "--test", "compiler", "--test", "cli"]);
-    tests.env("UMBRAGE_NO_ADAPTER", "1").args(arguments.iter().filter(|argument| *argument != "--fast"));
+    tests
+        .env("UMBRAGE_NO_ADAPTER", "1")
+        .env("UMBRAGE_NO_SOLVERS", "1")
+        .args(arguments.iter().filter(|argument| *argument != "--fast"));
     steps.run("fast tests", tests)
 }
 
@@ -287,7 +294,7 @@ fn has_file_with_extension(directory: &str, extension: &str) -> bool {
 }
 
 /// Makes sure that a validator is there, if that is possible. The tests can do without.
-fn tool(steps: &mut Steps, set_up: bool, name: &str, package: &str, language: &str) -> bool {
+fn tool(steps: &mut Steps, set_up: bool, name: &str, package: &str, judged: &str) -> bool {
     let found = || runs(Command::new(name).arg("--version"));
     if found() {
         return true;
@@ -301,11 +308,11 @@ fn tool(steps: &mut Steps, set_up: bool, name: &str, package: &str, language: &s
     let line = "*".repeat(78);
     eprintln!(
         "{line}\n\
-         warning: {name} is missing, so generated {language} is NOT validated by it.\n\
+         warning: {name} is missing, so {judged} NOT checked by it.\n\
          The tests that would do so are skipped. It is in Debian's package `{package}`.\n\
          {line}"
     );
-    steps.note(format!("{name} is missing: its validation of {language} was skipped"));
+    steps.note(format!("{name} is missing: {judged} not checked by it"));
     false
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct Known {
     pub(crate) wide: Outcome<f64>,
     /// The case and line over the reals, where that was looked at.
     pub(crate) real: Option<(Option<usize>, Option<usize>)>,
-    /// True if all assumptions hold there, by the reference.
+    /// True if all assumptions hold there, by the interpreter in `f64`.
     pub(crate) assumed: bool,
 }
 
@@ -93,8 +93,9 @@ pub(crate) fn evaluate(court: &mut Court<'_>, program: &Program, points: Vec<Poi
                 continue;
             }
         };
-        let assumed = narrow.place(&point).is_ok()
-            && program.assumptions.iter().all(|assumption| narrow.holds(assumption.condition) == Ok(true));
+        // An assumption is about the inputs as real numbers.
+        let assumed = wide.place(&point).is_ok()
+            && program.assumptions.iter().all(|assumption| wide.holds(assumption.condition) == Ok(true));
         known.push(Known { point, narrow: one, wide: two, real: None, assumed });
     }
     court.part("interpreters: batch", |court| batch(court, program, &known));
