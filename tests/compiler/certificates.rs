@@ -119,7 +119,7 @@ fn wrong<'p>(plan: &Plan<'p>) -> Vec<(&'static str, Plan<'p>)> {
     let mut all = Vec::new();
     let leaves: Vec<_> =
         plan.reachable().into_iter().filter(|step| matches!(plan.step(*step), Step::Leaf(_))).collect();
-    if let Some((first, second)) = leaves.iter().zip(leaves.iter().skip(1)).last() {
+    if let [.., first, second] = leaves.as_slice() {
         let (a, b) = (plan.step(*first).clone(), plan.step(*second).clone());
         all.push(("two leaves are exchanged", plan.clone().replaced(*first, b).replaced(*second, a)));
     }
