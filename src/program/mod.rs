@@ -21,6 +21,8 @@ pub(crate) mod claims;
 pub mod data_type;
 mod domain;
 pub mod draw;
+#[cfg(test)]
+mod enumerated;
 mod lower;
 pub(crate) mod normal;
 pub mod operators;

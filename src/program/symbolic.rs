@@ -509,3 +509,6 @@ impl<'p> Machine<'p> {
         state.chain(asked).collect::<Vec<_>>().join(", ")
     }
 }
+
+#[cfg(test)]
+mod tests;
