@@ -214,12 +214,23 @@ fn one(
     batch: &mut Batch,
 ) -> Result<(Vec<Program>, Built), Failure> {
     let (name, source) = (&table.name.value, table.source.clone());
-    if let Some((other, _)) = batch.tables.iter().find(|(_, built)| built.table == *name) {
+    // Not every file system tells capitals apart.
+    if let Some((other, built)) = batch.tables.iter().find(|(_, built)| built.table.eq_ignore_ascii_case(name)) {
         let other = other.first().map_or("", |program| program.source.name.as_str());
-        let message = format!("`{other}` and this file both define the table `{name}`");
-        let error =
-            Diagnostic::error(codes::DUPLICATE, message).help("their output would go to the same folder; rename one");
-        return Err(Failure::new(source, error));
+        let (message, help) = match built.table == *name {
+            true => (
+                format!("`{other}` and this file both define the table `{name}`"),
+                "their output would go to the same folder; rename one",
+            ),
+            false => (
+                format!(
+                    "the tables `{}` of `{other}` and `{name}` of this file differ in their capitals only",
+                    built.table
+                ),
+                "on some systems their output would go to the same folder; rename one",
+            ),
+        };
+        return Err(Failure::new(source, Diagnostic::error(codes::DUPLICATE, message).help(help)));
     }
     let checked = Program::check_all(table)?;
     // Notes are for `check`: here they would hide what was built.

@@ -24,9 +24,10 @@ fn reserved() -> &'static BTreeMap<&'static str, &'static str> {
 /// Dots group inputs (`d_c.r`): each part is checked by itself.
 pub(crate) fn check(name: &str, what: &str, span: Span) -> Result<(), Diagnostic> {
     well_formed(name, what, span)?;
-    // GLSL and WebGL keep everything that begins so; generated names begin with that of the table.
+    // GLSL and WebGL keep everything that begins so, macros in capitals; generated names begin with that of the table.
     for start in ["gl", "webgl"] {
-        let rest = name.strip_prefix(start);
+        let begins = name.get(..start.len()).is_some_and(|first| first.eq_ignore_ascii_case(start));
+        let rest = name.get(start.len()..).filter(|_| begins);
         if rest.is_some_and(|rest| rest.starts_with(['_', '.']) || (rest.is_empty() && what == "a table")) {
             return Err(Diagnostic::error(
                 codes::RESERVED_NAME,
@@ -35,6 +36,11 @@ pub(crate) fn check(name: &str, what: &str, span: Span) -> Result<(), Diagnostic
             .at(span, format!("cannot be the name of {what}"))
             .help("the names are taken in: GLSL"));
         }
+    }
+    if what == "a table" && is_device(name) {
+        return Err(Diagnostic::error(codes::RESERVED_NAME, format!("`{name}` is the name of a device on Windows"))
+            .at(span, format!("cannot be the name of {what}"))
+            .help("the files of a table lie in a directory of its name, which could not be made there"));
     }
     for part in name.split('.') {
         if let Some(languages) = reserved().get(part) {
@@ -45,6 +51,13 @@ pub(crate) fn check(name: &str, what: &str, span: Span) -> Result<(), Diagnostic
         }
     }
     Ok(())
+}
+
+/// Returns whether Windows takes a name for a device, in whatever directory.
+fn is_device(name: &str) -> bool {
+    let lower = name.to_ascii_lowercase();
+    let numbered = |port: &str| lower.strip_prefix(port).is_some_and(|rest| matches!(rest.as_bytes(), [b'0'..=b'9']));
+    matches!(lower.as_str(), "aux" | "con" | "nul" | "prn" | "conin" | "conout") || numbered("com") || numbered("lpt")
 }
 
 /// Checks a name that appears in generated code only inside longer names or
@@ -129,6 +142,22 @@ mod tests {
     fn accepts_the_names_of_the_papers() {
         for name in ["H", "tV", "d_c.r", "n_top", "px", "C0"] {
             assert!(check(name, "an input", Span::default()).is_ok(), "{name}");
+        }
+    }
+
+    #[test]
+    fn refuses_macros_and_devices() {
+        for name in ["GL_ES", "GL_core_profile", "gl_x", "Gl.x", "WEBGL_x", "VULKAN"] {
+            assert!(check(name, "an input", Span::default()).is_err(), "{name}");
+        }
+        for name in ["con", "NUL", "Com1", "lpt9", "GL"] {
+            assert!(check(name, "a table", Span::default()).is_err(), "{name}");
+        }
+        for name in ["con", "com1", "GLx", "glory", "webglue"] {
+            assert!(check(name, "an input", Span::default()).is_ok(), "{name}");
+        }
+        for name in ["com", "com10", "console"] {
+            assert!(check(name, "a table", Span::default()).is_ok(), "{name}");
         }
     }
 

@@ -308,17 +308,28 @@ impl<'a> Reader<'a> {
                 .at(self.first_word(), "here")
         };
         let Some(functions) = &ron.functions else {
+            let hit_policy = self.hit_policy(ron.hit_policy.ok_or_else(|| missing("hit_policy"))?)?;
             let (output, later) = self.output(ron.output.ok_or_else(|| missing("output"))?)?;
             if let Some((place, what)) = later {
                 since(2, language, place, what)?;
             }
             return Ok(Decision {
-                hit_policy: self.hit_policy(ron.hit_policy.ok_or_else(|| missing("hit_policy"))?)?,
-                output,
+                hit_policy,
                 default: {
                     ron.cases.as_ref().ok_or_else(|| missing("cases"))?;
-                    self.expr(ron.default.ok_or_else(|| missing("default"))?)?
+                    let default = ron.default.ok_or_else(|| missing("default"))?;
+                    // Where a level is expected, quotes are optional.
+                    match &output.value {
+                        Output::Enumeration(_) => self.level_or_expr(default)?,
+                        Output::Number(_)
+                        | Output::Vector(..)
+                        | Output::Bool
+                        | Output::Int(..)
+                        | Output::List { .. }
+                        | Output::Record(_) => self.expr(default)?,
+                    }
                 },
+                output,
             });
         };
         let odd =
