@@ -86,7 +86,12 @@ fn drop_duplicates(found: &mut Vec<Diagnostic>) {
     let limits = [codes::REMOVABLE, codes::POLE];
     let place = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
     let known: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(place).collect();
-    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !place(finding).is_some_and(|p| known.contains(&p)));
+    let divides = |finding: &Diagnostic| finding.labels.iter().any(|label| label.message.contains("division by zero"));
+    let is_known = |finding: &Diagnostic| place(finding).is_some_and(|p| known.contains(&p));
+    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !(divides(finding) && is_known(finding)));
+    // What was not analysed is said once of a case, however many of its lines and components it is true of.
+    let mut said = std::collections::HashSet::new();
+    found.retain(|finding| finding.code != codes::NOT_ANALYSED || said.insert(finding.message.clone()));
 }
 
 fn not_analysed(program: &Program) -> Diagnostic {

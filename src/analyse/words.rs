@@ -129,7 +129,10 @@ pub(super) fn simplified(space: &mut Space<'_>, values: &[ExprId]) -> String {
         .iter()
         .map(|value| {
             let value = bare(space, *value);
-            let lattice = space.lattice(value).filter(|clauses| clauses.iter().map(Vec::len).sum::<usize>() <= 6);
+            let sayable = |form: &Affine| form.terms.keys().all(has_name);
+            let lattice = space.lattice(value).filter(|clauses| {
+                clauses.iter().map(Vec::len).sum::<usize>() <= 6 && clauses.iter().flatten().all(sayable)
+            });
             match lattice {
                 Some(clauses) => {
                     let clause = |parts: &Vec<Affine>| {
@@ -154,6 +157,11 @@ fn joined(parts: &[String]) -> String {
 fn call(name: &str, arguments: Vec<String>) -> String {
     let nested = |all: String, next: String| format!("{name}({all}, {next})");
     arguments.into_iter().reduce(nested).unwrap_or_default()
+}
+
+/// Returns whether a term of a form can be written as a name.
+pub(super) fn has_name(term: &Term) -> bool {
+    matches!(term, Term::Input(_))
 }
 
 /// `1 + px - dV`

@@ -123,7 +123,7 @@ registry! {
     // Findings about a program that has a meaning.
     EXAMPLE_FAILS = "U0501", Finding, Error, "an example leads to another case or another value";
     NOT_UNIQUE = "U0502", Finding, Warning, "`Unique`, but two cases match and differ";
-    UNCOVERED = "U0503", Finding, Note, "states that no case claims (a note: the default is theirs)";
+    UNCOVERED = "U0503", Finding, Note, "states, or numbers, that no case claims (a note: the default is theirs)";
     DEAD_CASE = "U0504", Finding, Warning, "a case that is never taken";
     UNUSED_INPUT = "U0505", Finding, Warning, "an input that nothing depends on";
     SYMMETRY_BROKEN = "U0506", Finding, Warning, "cases that contradict their images under a declared symmetry; where most images agree, the odd one out";
@@ -137,7 +137,7 @@ registry! {
     NOT_A_NUMBER = "U0514", Finding, Warning, "an operation that can yield infinity or NaN";
     FLOAT_EQUALITY = "U0515", Finding, Warning, "numbers that are compared for equality";
     JUMP = "U0516", Finding, Warning, "the value jumps at a border or switch where it is declared not to";
-    INEXACT = "U0520", Finding, Note, "a constant that no `f32` equals (a note)";
+    INEXACT = "U0520", Finding, Note, "a constant that no `f32` equals (a note), or an integer that `f32` takes for another one";
     MERGEABLE = "U0521", Finding, Note, "cases that could be one (a note)";
     RENAMED = "U0522", Finding, Note, "a name that a target language has to change (a note)";
     NOT_ANALYSED = "U0530", Finding, Note, "an analysis that could not be done, with the reason (a note)";

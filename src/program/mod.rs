@@ -132,6 +132,20 @@ pub struct Written {
     pub unused_helpers: Vec<Spanned<String>>,
     /// Numbers that no `f32` equals.
     pub inexact: Vec<(f64, Span)>,
+    /// The choices, an `if` or `select` each, in the order written.
+    pub choices: Vec<Choice>,
+}
+
+/// A choice that is written in a table. What stands in a name, or in a function, is one
+/// choice and may be many selections, one for each place that it is used at.
+#[derive(Debug, Clone, Default)]
+pub struct Choice {
+    /// Its place.
+    pub span: Span,
+    /// The selections that it became.
+    pub selections: Vec<ExprId>,
+    /// True if somewhere it is known beforehand that the first of the two is chosen.
+    pub is_decided: bool,
 }
 
 /// The declaration of a program that is a function of a table. The conditions of

@@ -9,7 +9,7 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
 
-use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
+use super::operators::{BinaryAlgebra, Bounds, TernaryAlgebra, UnaryAlgebra};
 use super::rational::Rational;
 use super::{BinaryOp, ExprId, InputId, Node, Pool, TernaryOp, UnaryOp};
 
@@ -90,6 +90,35 @@ impl Normaliser {
             let value = factor.to_f64() * self.value_of_term(term, numbers);
             (sum + value, size + value.abs())
         })
+    }
+
+    /// Bounds of an affine form where inputs have these bounds; nothing if an operation in it may fail there.
+    pub(crate) fn bounds(&self, form: &Affine, of: &dyn Fn(InputId) -> Bounds) -> Option<Bounds> {
+        let start = form.constant.to_f64();
+        form.terms.iter().try_fold((start, start), |(lo, hi), (term, factor)| {
+            let ((from, to), factor) = (self.bounds_of_term(term, of)?, factor.to_f64());
+            Some((lo + (from * factor).min(to * factor), hi + (from * factor).max(to * factor)))
+        })
+    }
+
+    fn bounds_of_term(&self, term: &Term, of: &dyn Fn(InputId) -> Bounds) -> Option<Bounds> {
+        let at = |id: &NormalId| {
+            let largest = |clause: &Vec<Affine>| {
+                let parts = clause.iter().map(|form| self.bounds(form, of));
+                let join = |all: Bounds, part: Option<Bounds>| part.map(|(lo, hi)| (all.0.max(lo), all.1.max(hi)));
+                parts.into_iter().try_fold((f64::NEG_INFINITY, f64::NEG_INFINITY), join)
+            };
+            let join = |all: Bounds, part: Option<Bounds>| part.map(|(lo, hi)| (all.0.min(lo), all.1.min(hi)));
+            self.lattice_of(*id).iter().map(largest).try_fold((f64::INFINITY, f64::INFINITY), join)
+        };
+        let (bounds, fails) = match term {
+            Term::Input(input) => return Some(of(*input)),
+            Term::Constant(bits) => return Some((f64::from_bits(*bits), f64::from_bits(*bits))),
+            Term::Unary(op, a) => op.image(at(a)?),
+            Term::Binary(op, a, b) => op.image(at(a)?, at(b)?),
+            Term::Ternary(op, [a, b, c]) => op.image(at(a)?, at(b)?, at(c)?),
+        };
+        (fails.is_none() && bounds.0.is_finite() && bounds.1.is_finite()).then_some(bounds)
     }
 
     fn value_of_term(&self, term: &Term, numbers: &[f64]) -> f64 {

@@ -1,16 +1,17 @@
-//! U0503: states that no case claims; U0504, U0510: cases that are never taken.
+//! U0503: states, and numbers in other states, that no case claims; U0504, U0510: cases that are never taken.
 //!
 //! A default is a legitimate part of a table, so unclaimed states are a note.
 //! A case that can never be taken is a warning: somebody wrote it for a reason.
 
-use std::collections::HashSet;
+mod regions;
 
 use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::study::Study;
+use crate::analyse::values::rounding::{self, Rounding};
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
-use crate::program::Program;
+use crate::program::{InputSet, Program};
 use crate::table::HitPolicy;
 
 /// The states of a table that its cases claim.
@@ -108,6 +109,8 @@ fn covering(study: &mut Study<'_>, row: usize, within: Set) -> Vec<usize> {
     found.into_iter().map(|(earlier, _)| earlier).collect()
 }
 
+pub(in crate::analyse) use regions::IN_FUNCTIONS;
+
 /// The codes that are found here, and how.
 pub(in crate::analyse) const ANALYSIS: Analysis =
     Analysis { codes: &[codes::UNCOVERED, codes::DEAD_CASE, codes::NOT_REACHED], run: Run::Sets(findings) };
@@ -130,11 +133,18 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     if !unclaimed.is_empty() {
         found.push(uncovered(study, unclaimed));
     }
+    found.extend(regions::finding(&mut study.space, study.rows.unclaimed, study.assumed));
     found
 }
 
 fn never_taken(program: &Program, dead: &Dead) -> Diagnostic {
     let case = &program.rows[dead.row];
+    let guards = dead.covered_by.iter().chain([&dead.row]).map(|row| program.rows[*row].guard);
+    let mut rounding = Rounding::new(&program.pool);
+    if guards.clone().any(|guard| rounding.decides(guard)) {
+        let inputs = guards.fold(InputSet::default(), |all, guard| all.or(program.pool.cond_facts(guard).inputs));
+        return by_rounding(program, dead, inputs);
+    }
     let warning = Diagnostic::warning(codes::DEAD_CASE, format!("case {} is never taken", case.id));
     if dead.covered_by.is_empty() {
         return warning
@@ -152,6 +162,27 @@ fn never_taken(program: &Program, dead: &Dead) -> Diagnostic {
         false => warning,
     };
     warning.help("move the case up, narrow the earlier guards, or remove it")
+}
+
+/// The warning about a case that is never taken over the real numbers, where `f32` rounds on the way to its guard.
+fn by_rounding(program: &Program, dead: &Dead, inputs: InputSet) -> Diagnostic {
+    let case = &program.rows[dead.row];
+    let place = match dead.covered_by.is_empty() {
+        true => "over the real numbers this holds nowhere",
+        false => "over the real numbers an earlier case is taken wherever this holds",
+    };
+    let distance = "numbers that are equal on paper differ in f32: compare with a distance, as in `abs(a - b) < 0.001`";
+    match rounding::point_in_f32(program, inputs, |outcome| outcome.row == Some(dead.row)) {
+        Some(point) => {
+            Diagnostic::warning(codes::DEAD_CASE, format!("case {} is taken only where f32 rounds", case.id))
+                .at(case.guard_span, place)
+                .help(format!("in f32 it is taken at {point}"))
+                .help(distance)
+        }
+        None => Diagnostic::warning(codes::DEAD_CASE, format!("case {} is never taken but by rounding", case.id))
+            .at(case.guard_span, place)
+            .help(distance),
+    }
 }
 
 fn not_reached(study: &mut Study<'_>, row: usize) -> Diagnostic {
@@ -198,25 +229,25 @@ fn nearest(study: &mut Study<'_>, row: usize) -> String {
 fn uncovered(study: &mut Study<'_>, unclaimed: Set) -> Diagnostic {
     let program = study.program;
     let count = study.space.count(unclaimed);
+    let claim = regions::claim(&mut study.space, unclaimed);
     let admitted = study.space.sets.and(unclaimed, study.assumed);
     let admitted = study.space.count(admitted);
     let all = program.states.count();
     let message = format!("no case claims {count} of the {all} states; they get the default");
     let note = Diagnostic::note(codes::UNCOVERED, message).at(program.hit_policy_span, "");
-    let shown = words::conditions(&mut study.space, unclaimed, 5);
-    let (shown, more) = if shown.len() > 4 { (&shown[..4], ", and further ones") } else { (&shown[..], "") };
-    let note = match (shown, count == all) {
-        (_, true) => note.help("these are all states"),
-        (shown, _) => note.help(format!("these are the states with {}{more}", shown.join(", or "))),
+    let note = match &claim {
+        _ if count == all => note.help("these are all states"),
+        Some(claim) => note.help(format!("these are the states with {}", claim.join(", or "))),
+        None => {
+            let some = words::conditions(&mut study.space, unclaimed, regions::MOST);
+            note.help(format!("these are the states with {}, and further ones", some.join(", or ")))
+        }
     };
     let note = match program.assumptions.is_empty() {
         true => note,
         false => note.help(format!("the assumptions admit {admitted} of them")),
     };
-    let taken: HashSet<u32> = program.rows.iter().map(|row| row.id).collect();
-    let id = (1..).find(|id| !taken.contains(id)).unwrap_or_default();
-    let when = shown.first().map_or("true", String::as_str);
-    note.help(format!("to claim them: Case(id: {id}, when: \"{when}\", value: ...)"))
+    note.help(regions::row(program, claim.as_deref()))
 }
 
 #[cfg(test)]
@@ -235,8 +266,16 @@ mod tests {
 
     #[test]
     fn unclaimed_states_are_noted() {
-        let found = cases(r#"Case(id: 1, when: "s == 1", value: 1), Case(id: 2, when: "s == 2 && x < 0.5", value: 2)"#);
+        let found = cases(r#"Case(id: 1, when: "s == 1", value: 1), Case(id: 2, when: "s == 2", value: 2)"#);
         assert_eq!(found, ["U0503 no case claims 1 of the 3 states; they get the default"]);
+        let found = cases(r#"Case(id: 1, when: "s == 1", value: 1), Case(id: 2, when: "s == 2 && x < 0.5", value: 2)"#);
+        assert_eq!(
+            found,
+            [
+                "U0503 no case claims 1 of the 3 states; they get the default",
+                "U0503 no case claims `s == 2 && x >= 0.5`; the default decides there"
+            ]
+        );
     }
 
     #[test]

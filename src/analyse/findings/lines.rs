@@ -1,13 +1,14 @@
 //! U0507, U0508, U0511: lines of a case: none applies, two do and differ, one never does.
 
+mod choices;
+
 use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::{Piece, Study};
+use crate::analyse::values::rounding::Rounding;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
-use crate::program::print::Printer;
-use crate::program::{CondId, ExprId, Node};
 
 /// The codes that are found here, and how.
 pub(in crate::analyse) const ANALYSIS: Analysis =
@@ -26,6 +27,7 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
         found.extend(crossing(study, row, taken));
         found.extend(dead_lines(study, row, taken));
     }
+    found.extend(choices::findings(study));
     found
 }
 
@@ -136,7 +138,7 @@ fn lines_differ(study: &mut Study<'_>, row: usize, (first, second): (usize, usiz
     result
 }
 
-/// Lines, and choices inside values, that never count.
+/// Lines that never count.
 fn dead_lines(study: &mut Study<'_>, row: usize, taken: Set) -> Vec<Diagnostic> {
     let program = study.program;
     let case = &program.rows[row];
@@ -147,10 +149,6 @@ fn dead_lines(study: &mut Study<'_>, row: usize, taken: Set) -> Vec<Diagnostic> 
         let counts = study.space.sets.and(rest, condition);
         if study.space.is_void(counts) {
             found.push(dead_line(study, row, number));
-        } else {
-            for value in &line.values {
-                dead_choices(study, (row, number), *value, counts, &mut found);
-            }
         }
         rest = study.space.sets.minus(rest, condition);
     }
@@ -180,10 +178,15 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
             .help("mend its condition or the assumption, or remove the line");
     }
     if study.space.is_void(holds) {
-        return warning
-            .at(line.span, "its condition never holds where the case is taken")
-            .at(case.guard_span, "the guard")
-            .help("mend the condition, or remove the line");
+        let warning =
+            warning.at(line.span, "its condition never holds where the case is taken").at(case.guard_span, "the guard");
+        let mut rounding = Rounding::new(&program.pool);
+        return match rounding.decides(line.condition) || rounding.decides(case.guard) {
+            true => {
+                warning.help("this is so over the real numbers; where f32 rounds, it may hold: compare with a distance")
+            }
+            false => warning.help("mend the condition, or remove the line"),
+        };
     }
     let mut warning = warning.at(line.span, "wherever its condition holds, an earlier line counts");
     for earlier in case.lines[..number].iter() {
@@ -193,50 +196,4 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
         }
     }
     warning.help("mend the conditions, move the line up, or remove it")
-}
-
-/// Choices inside a value that never go one way. What a name of the table
-/// stands for is left alone: it may be needed elsewhere.
-fn dead_choices(study: &mut Study<'_>, place: (usize, usize), value: ExprId, within: Set, found: &mut Vec<Diagnostic>) {
-    if study.space.pool.label(value).is_some() || !study.space.pool.expr_facts(value).selects {
-        return;
-    }
-    match study.space.pool.node(value) {
-        node @ (Node::Const(_)
-        | Node::Input(_)
-        | Node::Result
-        | Node::Unary(..)
-        | Node::Binary(..)
-        | Node::Ternary(..)) => node.children().for_each(|part| dead_choices(study, place, part, within, found)),
-        Node::Select(condition, a, b) => {
-            let holds = study.space.condition(condition, View::PLAIN);
-            let (then, other) = (study.space.sets.and(within, holds), study.space.sets.minus(within, holds));
-            if study.space.is_void(then) {
-                found.push(dead_choice(study, place, condition, then));
-            } else {
-                dead_choices(study, place, a, then, found);
-            }
-            // The end of a chain may be there for completeness only.
-            if !study.space.is_void(other) {
-                dead_choices(study, place, b, other, found);
-            }
-        }
-    }
-}
-
-fn dead_choice(study: &mut Study<'_>, (row, line): (usize, usize), condition: CondId, never: Set) -> Diagnostic {
-    let program = study.program;
-    let case = &program.rows[row];
-    let asked = Printer { pool: &study.space.pool, inputs: &program.inputs }.cond(condition);
-    let message = format!("a part of the value of case {} never counts", case.id);
-    let warning = Diagnostic::warning(codes::DEAD_LINE, message)
-        .at(case.lines[line].span, format!("where this is asked, `{asked}` never holds"));
-    let warning = match never.is_empty() {
-        true => warning.at(case.guard_span, "given this guard and the choices before"),
-        false => {
-            let blamed: Vec<String> = study.blame(never).into_iter().map(|name| format!("`{name}`")).collect();
-            warning.help(format!("{} rules it out", words::list(&blamed)))
-        }
-    };
-    warning.help("remove this choice, or mend the guard")
 }

@@ -6,6 +6,7 @@ pub(crate) mod accuracy;
 pub(crate) mod continuity;
 pub(crate) mod coverage;
 pub(crate) mod examples;
+pub(crate) mod guards;
 pub(crate) mod lines;
 pub(crate) mod numbers;
 pub(crate) mod overlap;
@@ -44,10 +45,12 @@ pub(super) const ALL: &[Analysis] = &[
     singular::ANALYSIS,
     overlap::ANALYSIS,
     coverage::ANALYSIS,
+    coverage::IN_FUNCTIONS,
     lines::ANALYSIS,
     symmetry::ANALYSIS,
     continuity::ANALYSIS,
     numbers::ANALYSIS,
+    guards::ANALYSIS,
     style::ANALYSIS,
 ];
 

@@ -2,11 +2,11 @@
 //! can leave the numbers, comparisons for equality.
 
 use super::{Analysis, Run};
-use crate::analyse::sets::Set;
-use crate::analyse::sets::study::{Piece, Study};
+use crate::analyse::sets::study::Study;
 use crate::analyse::values::point::Point;
 use crate::analyse::values::real;
-use crate::analyse::values::real::{Boxed, Trouble};
+use crate::analyse::values::rounding::Rounding;
+use crate::analyse::values::search::{Asked, MAX_BOXES, Search, search};
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
 use crate::program::print::Printer;
@@ -131,12 +131,22 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> = Vec::new();
     for piece in study.pieces.clone() {
         let set = study.space.sets.and(piece.set, study.assumed);
-        for value in &piece.values {
+        let written = match piece.row.zip(piece.line) {
+            Some((row, line)) => &program.rows[row].lines[line].values,
+            None => &program.default,
+        };
+        for (value, written) in piece.values.iter().zip(written) {
             if !real::is_partial(&study.space.pool, *value) || study.space.is_void(set) {
                 continue;
             }
-            let (trouble, numbers) = match search(study, &piece, set, *value) {
-                Search::Found(trouble, numbers) => (trouble, numbers),
+            let reached = |point: &Point| {
+                let outcome = point.outcome(program);
+                let admitted = program.assumptions.iter().all(|a| point.holds(&program.pool, a.condition));
+                admitted && (outcome.row, outcome.line) == (piece.row, piece.line)
+            };
+            let asked = Asked { written: *written, reached: &reached };
+            let (trouble, point, exact) = match search(study, set, *value, &asked) {
+                Search::Found { trouble, point, exact } => (trouble, point, exact),
                 Search::Nothing => continue,
                 Search::Unknown => {
                     found.extend(undecided(study, piece.row, piece.line));
@@ -156,28 +166,18 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
             let what = Printer { pool: &study.space.pool, inputs: &program.inputs }.expr(trouble.expr);
             let mut warning =
                 Diagnostic::warning(codes::NOT_A_NUMBER, message).at(span, format!("`{what}` {}", trouble.what));
-            if let Some(mut witness) = study.space.with_numbers(set, &numbers) {
-                witness.numbers = numbers.iter().map(|number| Some(*number)).collect();
-                let relevant = study.space.pool.expr_facts(*value).inputs;
-                if let Some(place) = words::at(program, &witness, relevant) {
-                    warning = warning.help(format!("for instance at {place}"));
-                }
+            let mut witness = point.witness(program, &vec![true; program.inputs.len()]);
+            if let Some(known) = study.space.with_numbers(set, &point.numbers) {
+                witness.levels = known.levels;
+            }
+            let relevant = study.space.pool.expr_facts(*value).inputs;
+            if let Some(place) = words::at(program, &witness, relevant) {
+                warning = warning.help(format!("for instance {} {place}", if exact { "at" } else { "near" }));
             }
             found.push(warning.help("guard against it with a line of its own, or with max, clamp or select"));
         }
     }
     found
-}
-
-/// Most boxes that the search for trouble looks at.
-const MAX_BOXES: usize = 1024;
-
-/// The end of a search for trouble.
-enum Search {
-    Found(Trouble, Vec<f64>),
-    Nothing,
-    /// Out of patience.
-    Unknown,
 }
 
 /// A note on a value for which the search gave up.
@@ -189,69 +189,23 @@ fn undecided(study: &Study<'_>, row: Option<usize>, line: Option<usize>) -> Opti
     Some(note.help(format!("it depends on too many inputs at once: {MAX_BOXES} parts of the domain were looked at")))
 }
 
-/// A point of a set at which an operation in a value fails, if there is one;
-/// what cannot be excluded counts if it is inside the set.
-fn search(study: &mut Study<'_>, piece: &Piece, set: Set, value: ExprId) -> Search {
-    let program = study.program;
-    let inputs = study.space.pool.expr_facts(value).inputs;
-    let whole = Boxed::domain(program);
-    let mut pending = std::collections::VecDeque::from([whole]);
-    let mut looked = 0;
-    while let Some(part) = pending.pop_front() {
-        let Some(trouble) = real::trouble(&study.space.pool, value, &part) else { continue };
-        if !study.space.can_be_in(set, &part) {
-            continue;
-        }
-        let (mut inside, mut corners) = (0, 0);
-        for point in part.corners(inputs) {
-            corners += 1;
-            if is_in(study, piece, set, &point) {
-                inside += 1;
-                if real::trouble(&study.space.pool, value, &Boxed::at(&point)).is_some() {
-                    return Search::Found(trouble, point);
-                }
-            }
-        }
-        looked += 1;
-        if part.width(inputs) < 1e-6 {
-            // All around lies in the set, and no smaller box will tell.
-            if inside == corners {
-                return Search::Found(trouble, part.middle());
-            }
-            continue;
-        }
-        if looked >= MAX_BOXES {
-            return Search::Unknown;
-        }
-        pending.extend(part.halves(inputs));
-    }
-    Search::Nothing
-}
-
-/// Returns whether a piece gives its value at these numbers, for some levels.
-fn is_in(study: &mut Study<'_>, piece: &Piece, set: Set, numbers: &[f64]) -> bool {
-    let Some(witness) = study.space.with_numbers(set, numbers) else { return false };
-    // What is not linear was taken to be possible, so the program itself is asked.
-    let outcome = Point::of(study.program, &witness).outcome(study.program);
-    (outcome.row, outcome.line) == (piece.row, piece.line)
-}
-
 /// Comparisons for equality in guards, conditions and values. In assumptions they are how a line is described.
 fn equalities(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let pool = &program.pool;
+    let mut rounding = Rounding::new(pool);
     let mut found = Vec::new();
     for row in &program.rows {
         let mut seen = Vec::new();
         conditions_in(program, row.guard, &mut seen);
-        let guard = equality(program, &seen).map(|(a, b)| (row.guard_span, a, b));
-        let lines = row.lines.iter().filter_map(|line| {
+        let guard = equality(program, &mut rounding, &seen).map(|(a, b)| (row.guard_span, a, b));
+        let mut lines = row.lines.iter().filter_map(|line| {
             let mut seen = Vec::new();
             conditions_in(program, line.condition, &mut seen);
             line.values.iter().for_each(|value| choices_in(program, *value, &mut seen));
-            equality(program, &seen).map(|(a, b)| (line.span, a, b))
+            equality(program, &mut rounding, &seen).map(|(a, b)| (line.span, a, b))
         });
-        let Some((span, a, b)) = guard.into_iter().chain(lines).next() else { continue };
+        let Some((span, a, b)) = guard.or_else(|| lines.next()) else { continue };
         let printer = Printer { pool, inputs: &program.inputs };
         let text = format!("{} == {}", printer.expr(a), printer.expr(b));
         found.push(
@@ -263,10 +217,11 @@ fn equalities(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-fn equality(program: &Program, conditions: &[CondId]) -> Option<(ExprId, ExprId)> {
+/// The first comparison for equality of numbers that are not exact: sums of codes and of truth values are.
+fn equality(program: &Program, rounding: &mut Rounding<'_>, conditions: &[CondId]) -> Option<(ExprId, ExprId)> {
     conditions.iter().find_map(|condition| {
         let Cond::Compare(Comparison::Equal, a, b) = program.pool.cond(*condition) else { return None };
-        Some((*a, *b))
+        (!(rounding.is_exact(*a) && rounding.is_exact(*b))).then_some((*a, *b))
     })
 }
 

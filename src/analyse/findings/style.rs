@@ -7,7 +7,7 @@ use super::{Analysis, Run};
 use crate::analyse::sets::study::Study;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, Span, codes};
-use crate::program::{CondId, ExprId, LevelKind, LevelSet, Program};
+use crate::program::{Comparison, Cond, CondId, ExprId, LevelKind, LevelSet, Program};
 
 /// The codes that are found here, and how.
 pub(in crate::analyse) const ANALYSIS: Analysis =
@@ -17,6 +17,7 @@ pub(in crate::analyse) const ANALYSIS: Analysis =
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found = mergeable(study);
     found.extend(inexact(study.program));
+    found.extend(beside_integers(study.program));
     found.extend(renamed(study.program));
     found
 }
@@ -83,6 +84,51 @@ fn inexact(program: &Program) -> Option<Diagnostic> {
         true => note,
         false => note.help(format!("the same goes for {}", words::list(&others))),
     })
+}
+
+/// Guards and conditions that compare with an integer so large that `f32` takes one beside it for the same: numbers
+/// that name something, as dates do, then fall on the wrong side.
+fn beside_integers(program: &Program) -> Vec<Diagnostic> {
+    let pool = &program.pool;
+    let mut found = Vec::new();
+    for row in &program.rows {
+        let lines = row.lines.iter().map(|line| (line.condition, line.condition_span.unwrap_or(line.span)));
+        let mut asked = std::iter::once((row.guard, row.guard_span)).chain(lines);
+        let confused = asked.find_map(|(condition, span)| {
+            let mut open = vec![condition];
+            while let Some(condition) = open.pop() {
+                open.extend(pool.cond(condition).children());
+                if let Cond::Compare(op, a, b) = pool.cond(condition)
+                    && let Some(pair) = confused(*op, pool.constant(*a), pool.constant(*b))
+                {
+                    return Some((pair, span));
+                }
+            }
+            None
+        });
+        let Some(((beside, constant), span)) = confused else { continue };
+        let message = format!("case {} compares with {constant}, from which f32 does not tell {beside}", row.id);
+        found.push(
+            Diagnostic::warning(codes::INEXACT, message).at(span, format!("{beside} falls on the wrong side")).help(
+                "from 16777216 on f32 leaves out integers: ask for parts of the number, for instance year and day",
+            ),
+        );
+    }
+    found
+}
+
+/// The integer beside a constant for which a comparison comes out otherwise in `f32`, with the constant.
+fn confused(op: Comparison, a: Option<f64>, b: Option<f64>) -> Option<(f64, f64)> {
+    let (constant, holds): (f64, Box<dyn Fn(f64) -> [bool; 2]>) = match (a, b) {
+        (Some(a), None) => (a, Box::new(move |x| [op.holds(a, x), op.holds(a as f32, x as f32)])),
+        (None, Some(b)) => (b, Box::new(move |x| [op.holds(x, b), op.holds(x as f32, b as f32)])),
+        (Some(_), Some(_)) | (None, None) => return None,
+    };
+    let beside = [constant - 1.0, constant + 1.0].into_iter().find(|x| {
+        let [exact, rounded] = holds(*x);
+        exact != rounded
+    });
+    (constant.fract() == 0.0).then_some((beside?, constant))
 }
 
 /// Names of levels whose constants would be the same in generated code, where constants are upper case.

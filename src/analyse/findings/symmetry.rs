@@ -40,8 +40,10 @@ struct Odd {
 type Rows = Vec<Option<usize>>;
 
 /// The codes that are found here, and how.
-pub(in crate::analyse) const ANALYSIS: Analysis =
-    Analysis { codes: &[codes::SYMMETRY_BROKEN, codes::SYMMETRY_ASSUMED], run: Run::Sets(findings) };
+pub(in crate::analyse) const ANALYSIS: Analysis = Analysis {
+    codes: &[codes::SYMMETRY_BROKEN, codes::SYMMETRY_ASSUMED, codes::NOT_ANALYSED],
+    run: Run::Sets(findings),
+};
 
 /// A warning for each line that most of its images contradict, and for cases
 /// that contradict each other undecidedly; a note where only assumptions help.
@@ -53,7 +55,9 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut assumed: BTreeMap<(Option<usize>, usize), Vec<Contradiction>> = BTreeMap::new();
     let all: Vec<usize> = (0..program.symmetries.len()).collect();
     let plain: Vec<usize> = all.iter().copied().filter(|s| program.symmetries[*s].result.is_none()).collect();
+    let mut found: Vec<Diagnostic> = Vec::new();
     for number in 0..program.symmetries.len() {
+        let mut open: Vec<Option<usize>> = Vec::new();
         let (broken, saved) = contradictions(study, number);
         for contradiction in saved {
             let (a, b) = contradiction.rows;
@@ -64,6 +68,9 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
         }
         for contradiction in broken {
             let Some(witness) = study.space.witness(contradiction.set) else { continue };
+            if !witness.certain {
+                open.extend([contradiction.rows.0, contradiction.rows.1]);
+            }
             let start = Point::of(program, &witness);
             let changes = program.symmetries[number].result.is_some();
             let near = Orbit::new(program, start.clone(), &plain);
@@ -76,6 +83,9 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
             }
             if !changes && near.is_unanimous() {
                 continue;
+            }
+            if !witness.certain {
+                open.truncate(open.len() - 2);
             }
             let wide = Orbit::new(program, start.clone(), &all);
             // Others may settle what the nearest images leave open, but only by taking one of their sides.
@@ -114,8 +124,8 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
             let key = (rows(0).min(rows(1)), rows(0).max(rows(1)));
             torn.entry(key).or_insert_with(|| (start, along.clone()));
         }
+        found.extend(not_decided(program, number, open));
     }
-    let mut found: Vec<Diagnostic> = Vec::new();
     for (place, odd) in odd {
         found.extend(odd_one_out(study, place, &odd));
     }
@@ -124,6 +134,17 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     }
     found.extend(assumed.into_values().filter_map(|group| only_assumed(study, &group)));
     found
+}
+
+/// A note on cases whose values are not linear, and for which no point was found at which they contradict their images.
+fn not_decided(program: &Program, symmetry: usize, mut rows: Vec<Option<usize>>) -> Option<Diagnostic> {
+    rows.sort_unstable();
+    rows.dedup();
+    let symmetry = &program.symmetries[symmetry];
+    let message = format!("whether `{}` holds everywhere was not decided", symmetry.name);
+    let note = Diagnostic::note(codes::NOT_ANALYSED, message).at(symmetry.span, "");
+    let help = format!("of {}: there it takes more than linear arithmetic", words::cases(program, &rows));
+    (!rows.is_empty()).then(|| note.help(help))
 }
 
 /// Finds contradictions of a symmetry: on inputs that the assumptions admit

@@ -124,6 +124,11 @@ impl<'p> Space<'p> {
         self.program.states.digits().len()
     }
 
+    /// The number of digits that belong to discrete inputs, fetched ones included.
+    pub(in crate::analyse) fn discrete_digits(&self) -> usize {
+        self.inputs_of_digits.len()
+    }
+
     /// The input of a digit, if it belongs to one.
     pub(in crate::analyse) fn input_of(&self, digit: usize) -> Option<InputId> {
         self.inputs_of_digits.get(digit).copied()

@@ -3,3 +3,5 @@
 pub(crate) mod orbit;
 pub(crate) mod point;
 pub(crate) mod real;
+pub(crate) mod rounding;
+pub(crate) mod search;

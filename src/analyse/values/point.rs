@@ -67,6 +67,26 @@ impl Point {
         }
     }
 
+    /// Returns whether another condition is asked on the way to the outcome of this one.
+    pub(in crate::analyse) fn asks(&self, pool: &Pool, condition: CondId, other: CondId) -> bool {
+        if condition == other {
+            return true;
+        }
+        match pool.cond(condition) {
+            Cond::Const(_) | Cond::Level(..) | Cond::Compare(..) => false,
+            Cond::Not(a) => self.asks(pool, *a, other),
+            Cond::And(list) | Cond::Or(list) => {
+                let goes_on = matches!(pool.cond(condition), Cond::And(_));
+                let asked = list.iter().position(|part| self.holds(pool, *part) != goes_on);
+                let asked = asked.map_or(list.as_slice(), |last| &list[..=last]);
+                asked.iter().any(|part| self.asks(pool, *part, other))
+            }
+            Cond::If(c, a, b) => {
+                self.asks(pool, *c, other) || self.asks(pool, if self.holds(pool, *c) { *a } else { *b }, other)
+            }
+        }
+    }
+
     /// The value of an expression here. The result of a table is not a number here.
     pub(in crate::analyse) fn number(&self, pool: &Pool, expr: ExprId) -> f64 {
         let at = |expr| self.number(pool, expr);

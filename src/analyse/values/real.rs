@@ -109,6 +109,11 @@ pub(in crate::analyse) fn trouble(pool: &Pool, expr: ExprId, part: &Boxed) -> Op
     trouble
 }
 
+/// Bounds of a value without selections over a box; everything where an operation may fail.
+pub(in crate::analyse) fn bounds(pool: &Pool, expr: ExprId, part: &Boxed) -> Bounds {
+    evaluate(pool, expr, part, &mut None)
+}
+
 /// Bounds of a value without selections over the whole domain, to a precision if that can be had.
 pub(in crate::analyse) fn range(program: &Program, pool: &Pool, expr: ExprId, precision: f64) -> Bounds {
     let upper = extreme(program, pool, expr, precision, 1.0);

@@ -257,7 +257,11 @@ fn select(lowering: &mut Lowering<'_>, call: Call<'_>) -> Result<Term> {
     let condition = lowering.condition(&call.arguments[2], call.env)?;
     let (other, then) =
         lowering.alternatives(&call.arguments[0], &call.arguments[1], call.env, call.expected.clone())?;
-    lowering.choose(condition, then, other, call.span)
+    let term = lowering.choose(condition, then, other, call.span)?;
+    if call.env.scope == 0 {
+        lowering.note_choice(call.span, condition, &term);
+    }
+    Ok(term)
 }
 
 /// A vector of a size, of components joined.

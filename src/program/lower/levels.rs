@@ -268,6 +268,7 @@ impl Lowering<'_> {
             let value = number(self, level);
             let value = self.pool.number(value);
             result = self.pool.select(condition, value, result);
+            self.note_level_choice(term, condition, result);
         }
         result
     }

@@ -5,7 +5,7 @@
 //! twice would otherwise take twice as long with each of them. What is not the same has a
 //! limit, so that lowering ends whatever a table asks for.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use super::terms::Term;
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::pool::{CondId, ExprId};
-use crate::program::{InputId, LevelTerm};
+use crate::program::{Choice, InputId, LevelTerm};
 
 /// Most expressions that are followed beyond those that are written.
 const MAX_FOLLOWED: usize = 1_000_000;
@@ -29,6 +29,9 @@ pub(super) struct Memo<'t> {
     /// The constants that are numbers, and those that are lists, by scope and place.
     pub(super) constants: HashMap<(usize, usize), Result<f64>>,
     pub(super) lists: HashMap<(usize, usize), Items>,
+    /// The choices of the table, by their places, and those of levels that are not numbers yet.
+    choices: BTreeMap<(usize, usize), Choice>,
+    of_levels: HashMap<usize, Vec<Span>>,
     /// The number of expressions followed so far.
     followed: usize,
     /// The refusal of any more, which is one mistake wherever it is met again.
@@ -113,6 +116,40 @@ impl<'t> Memo<'t> {
 }
 
 impl Lowering<'_> {
+    /// Notes what a choice that is written in this table became.
+    pub(super) fn note_choice(&mut self, span: Span, condition: CondId, term: &Term) {
+        if let Term::Level(_, level) = term {
+            self.memo.of_levels.entry(place(level)).or_default().push(span);
+        }
+        let truth = self.pool.truth(condition);
+        let parts = term.numbers();
+        let is_selection = |part: &ExprId| self.pool.node(*part).condition() == Some(condition);
+        let selections: Vec<ExprId> = parts.iter().copied().filter(is_selection).collect();
+        // Where both sides are the same, neither is idle.
+        let is_decided = truth == Some(true) || (truth.is_none() && selections.len() < parts.len());
+        let choice =
+            self.memo.choices.entry((span.start, span.end)).or_insert_with(|| Choice { span, ..Choice::default() });
+        choice.is_decided |= is_decided;
+        choice.selections.extend(selections);
+    }
+
+    /// Notes that a choice between levels became a selection between their numbers.
+    pub(super) fn note_level_choice(&mut self, term: &LevelTerm, condition: CondId, selection: ExprId) {
+        let LevelTerm::If(asked, ..) = term else { return };
+        if *asked != condition || self.pool.node(selection).condition() != Some(condition) {
+            return;
+        }
+        for span in self.memo.of_levels.get(&(std::ptr::from_ref(term) as usize)).cloned().unwrap_or_default() {
+            let choice = self.memo.choices.entry((span.start, span.end)).or_default();
+            choice.selections.push(selection);
+        }
+    }
+
+    /// The choices of the table, in the order written.
+    pub(super) fn choices(&mut self) -> Vec<Choice> {
+        std::mem::take(&mut self.memo.choices).into_values().collect()
+    }
+
     /// Counts expressions that are followed, and refuses more than a table may ask for.
     pub(super) fn follow(&mut self, expressions: usize, span: Span) -> Result<()> {
         self.memo.followed += expressions;

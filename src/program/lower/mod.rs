@@ -26,7 +26,7 @@ use std::sync::Arc;
 
 use super::domain::{Input, LevelKind, Levels, StateSpace};
 use super::pool::{InputSet, Pool};
-use super::{Assumption, InputId, Program};
+use super::{Assumption, InputId, Program, Written};
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::{self, Table, names};
 use memo::Memo;
@@ -201,6 +201,7 @@ impl<'t> Lowering<'t> {
         }
         once(errors);
         let fetched = self.fetched();
+        let choices = self.choices();
         Some(Program {
             source: table.source.clone(),
             imported: self.imported(),
@@ -224,7 +225,7 @@ impl<'t> Lowering<'t> {
             continuity,
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
-            written: written::written(table),
+            written: Written { choices, ..written::written(table) },
         })
     }
 }

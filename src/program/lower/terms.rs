@@ -169,7 +169,11 @@ impl Lowering<'_> {
             ExprKind::If(condition, then, other) => {
                 let condition = self.condition(condition, env)?;
                 let (then_term, other_term) = self.alternatives(then, other, env, expected)?;
-                self.choose(condition, then_term, other_term, other.span)
+                let term = self.choose(condition, then_term, other_term, other.span)?;
+                if env.scope == 0 {
+                    self.note_choice(span, condition, &term);
+                }
+                Ok(term)
             }
             ExprKind::Let(name, value, body) => {
                 self.check_local(name, env)?;

@@ -10,7 +10,7 @@ use crate::table::{CaseBody, FunctionBody, Image, Table};
 /// Looks at all that is written in a table of cases.
 pub(super) fn written(table: &Table) -> Written {
     let (unused_names, unused_helpers) = (unused_names(table), unused_helpers(table));
-    let mut written = Written { unused_names, unused_helpers, inexact: Vec::new() };
+    let mut written = Written { unused_names, unused_helpers, ..Written::default() };
     for case in &table.cases {
         if let CaseBody::Rows { when, lines } = &case.body {
             inexact(when, &mut written);

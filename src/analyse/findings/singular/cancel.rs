@@ -4,7 +4,8 @@
 //! vanish. In floating point each is rounded first, and for small `k` their
 //! roundings are larger than the result.
 
-use super::{Singularity, called, loss, quote, span};
+use super::trace::Trace;
+use super::{Singularity, called, loss, quote};
 use crate::diag::{Diagnostic, codes};
 use crate::program::{BinaryOp, ExprId, Node, Pool, Program, UnaryOp};
 use crate::show::{Precision, sentence};
@@ -47,7 +48,7 @@ pub(super) fn findings(program: &Program, singularities: &[Singularity]) -> Vec<
             let divisor = quote(program, divisor);
             let message = format!("in `{}` the term `{term} / ({divisor})` cancels on paper only", called(program));
             let mut diagnostic = Diagnostic::warning(codes::CANCELS, message);
-            if let Some(span) = span(program, &singularity.point) {
+            if let Some(span) = Trace::<f32>::place(program, &singularity.point, singularity.divisor) {
                 diagnostic = diagnostic.at(span, "both sides of a difference have this term");
             }
             let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);

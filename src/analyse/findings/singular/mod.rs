@@ -23,7 +23,7 @@ mod zeros;
 use std::collections::BTreeMap;
 
 use super::{Analysis, Run};
-use crate::diag::{Diagnostic, Span, codes};
+use crate::diag::{Diagnostic, codes};
 use crate::eval::{Precise, Unknown};
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
@@ -193,15 +193,6 @@ fn at(program: &Program, point: &[Value]) -> String {
     mentioned.collect::<Vec<_>>().join(", ")
 }
 
-/// The place in the table that a point leads to.
-fn span(program: &Program, point: &[Value]) -> Option<Span> {
-    let point = given(point);
-    let mut interpreter = crate::eval::Interpreter::<f32>::new(program);
-    let outcome = interpreter.evaluate(&point).ok()?;
-    let row = &program.rows[outcome.row?];
-    Some(outcome.line.map_or(row.span, |line| row.lines[line].span))
-}
-
 /// The codes that are found here, and how.
 pub(in crate::analyse) const ANALYSIS: Analysis =
     Analysis { codes: &[codes::REMOVABLE, codes::POLE, codes::CANCELS, codes::OVERFLOW], run: Run::Program(findings) };
@@ -241,7 +232,7 @@ fn describe(program: &Program, places: &[&Singularity]) -> Option<Diagnostic> {
             divisors.push(divisor);
         }
     }
-    if let Some(span) = span(program, &first.point) {
+    if let Some(span) = Trace::<f32>::place(program, &first.point, first.divisor) {
         diagnostic = diagnostic.at(span, format!("divides by {}", divisors.join(", ")));
     }
     for singularity in places {
@@ -337,7 +328,7 @@ fn overflows(program: &Program) -> Vec<Diagnostic> {
         let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);
         let message = format!("`{}` overflows on the way to a value that is finite", called(program));
         let mut diagnostic = Diagnostic::warning(codes::OVERFLOW, message);
-        if let Some(span) = span(program, &point) {
+        if let Some(span) = Trace::<f32>::place(program, &point, *first) {
             diagnostic = diagnostic.at(span, format!("`{}` is infinite in f32", quote(program, *first)));
         }
         let fate = format!("at {}: f32 gives {}, exact is {}", at(program, &point), shown(&got), shown(&exact));

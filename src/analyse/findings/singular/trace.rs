@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use crate::diag::Span;
 use crate::program::{Cond, CondId, ExprId, InputId, Node, Program, Real, Value};
 
 /// The terms that an evaluation came across, with their values.
@@ -25,6 +26,31 @@ impl<'p, T: Real> Trace<'p, T> {
         let values = line.map_or(&program.default, |line| &line.values);
         trace.result = values.iter().map(|value| trace.number(*value)).collect();
         trace
+    }
+
+    /// The part of the table that comes to an expression first: a guard, the condition of a line, or a line.
+    pub(super) fn place(program: &'p Program, point: &'p [Value], expr: ExprId) -> Option<Span> {
+        let mut trace = Self { program, point, order: Vec::new(), values: HashMap::new(), result: Vec::new() };
+        for row in &program.rows {
+            let taken = trace.holds(row.guard);
+            if trace.values.contains_key(&expr) {
+                return Some(row.guard_span);
+            }
+            if !taken {
+                continue;
+            }
+            for line in &row.lines {
+                let applies = trace.holds(line.condition);
+                if trace.values.contains_key(&expr) {
+                    return line.condition_span.or(Some(line.span));
+                }
+                if applies {
+                    return Some(line.span);
+                }
+            }
+            return Some(row.span);
+        }
+        None
     }
 
     /// The value of one expression at a point, whether or not the program evaluates it there.

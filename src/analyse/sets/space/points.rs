@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use super::{Question, Space, code};
 use crate::analyse::sets::Set;
 use crate::analyse::values::point::{Point, Witness};
-use crate::analyse::values::real::Boxed;
+use crate::analyse::values::real::{self, Boxed};
 use crate::points::random::Random;
 use crate::program::normal::{Affine, Term};
 use crate::program::rational::Rational;
@@ -21,6 +21,9 @@ const MAX_TRIES: usize = 256;
 /// The least distance from zero at which a value counts as positive or negative, as a share of the
 /// terms that it is the sum of: a hundred roundings of `f32`.
 const MARGIN: f64 = 6e-6;
+
+/// More than what rounding does to the bounds of a few operations, as a share of them.
+const ROUNDED: f64 = 1e-12;
 
 /// The largest distance from zero at which a value counts as zero: a few roundings of `f64`.
 const EXACT: f64 = 1e-15;
@@ -238,16 +241,22 @@ impl Space<'_> {
 
     /// The signs that the form of a digit can have in a box.
     pub(super) fn signs_in(&self, digit: usize, part: &Boxed) -> LevelSet {
-        let Question::Sign(form) = self.questions[digit - self.inputs_of_digits.len()] else {
-            return LevelSet::all(2);
+        let form = match self.questions[digit - self.inputs_of_digits.len()] {
+            Question::Sign(form) => &self.forms[form],
+            Question::Opaque(a, b) => {
+                let (a, b) = (real::bounds(&self.pool, a, part), real::bounds(&self.pool, b, part));
+                let slack = ROUNDED * [a.0, a.1, b.0, b.1].into_iter().map(f64::abs).fold(0.0, f64::max);
+                // Less, or not: both, if the bounds say nothing.
+                let (less, not) = (a.0 - slack < b.1 || slack.is_infinite(), a.1 + slack >= b.0 || slack.is_infinite());
+                return LevelSet(u64::from(less) | u64::from(not) << 1);
+            }
         };
-        let form = &self.forms[form];
-        let (mut lo, mut hi) = (form.constant.to_f64(), form.constant.to_f64());
-        for (term, factor) in &form.terms {
-            let Term::Input(input) = term else { return LevelSet::all(Sign::ALL.len()) };
-            let ((from, to), factor) = (part.of(*input), factor.to_f64());
-            lo += (from * factor).min(to * factor);
-            hi += (from * factor).max(to * factor);
+        let Some((mut lo, mut hi)) = self.normaliser.bounds(form, &|input| part.of(input)) else {
+            return LevelSet::all(Sign::ALL.len());
+        };
+        if form.terms.keys().any(|term| !matches!(term, Term::Input(_))) {
+            let slack = ROUNDED * lo.abs().max(hi.abs());
+            (lo, hi) = (lo - slack, hi + slack);
         }
         let possible = [(Sign::Positive, hi > 0.0), (Sign::Zero, lo <= 0.0 && hi >= 0.0), (Sign::Negative, lo < 0.0)];
         let possible = possible.into_iter().filter(|(_, can)| *can);
