@@ -40,6 +40,25 @@ impl Bound {
         (magnitude < f64::from(f32::MAX)).then_some(self)
     }
 
+    /// The smaller of two; one that is smaller everywhere, rounded or not, hides the error of the other.
+    fn smaller(self, other: Self) -> Self {
+        if self.hi + self.error <= other.lo - other.error {
+            return self;
+        }
+        if other.hi + other.error <= self.lo - self.error {
+            return other;
+        }
+        Self { lo: self.lo.min(other.lo), hi: self.hi.min(other.hi), error: self.error.max(other.error) }
+    }
+
+    fn negated(self) -> Self {
+        Self { lo: -self.hi, hi: -self.lo, ..self }
+    }
+
+    fn larger(self, other: Self) -> Self {
+        self.negated().smaller(other.negated()).negated()
+    }
+
     /// A constant as an `f32`.
     fn constant(value: f64) -> Option<Self> {
         let lost = (value - f64::from(value as f32)).abs();
@@ -85,10 +104,8 @@ fn operation(
         Node::Unary(op, a) => {
             let a = of(a)?;
             match op.row().algebra {
-                UnaryAlgebra::Negate => Some(Bound { lo: -a.hi, hi: -a.lo, error: a.error }),
-                UnaryAlgebra::Saturate => {
-                    Some(Bound { lo: a.lo.clamp(0.0, 1.0), hi: a.hi.clamp(0.0, 1.0), error: a.error })
-                }
+                UnaryAlgebra::Negate => Some(a.negated()),
+                UnaryAlgebra::Saturate => Some(a.larger(Bound::constant(0.0)?).smaller(Bound::constant(1.0)?)),
                 UnaryAlgebra::Absolute | UnaryAlgebra::Opaque => None,
             }
         }
@@ -104,19 +121,13 @@ fn operation(
                     let size = |x: Bound| x.lo.abs().max(x.hi.abs());
                     Bound::rounded(lo, hi, size(a) * b.error + size(b) * a.error + a.error * b.error)
                 }
-                BinaryAlgebra::Minimum => {
-                    Some(Bound { lo: a.lo.min(b.lo), hi: a.hi.min(b.hi), error: a.error.max(b.error) })
-                }
-                BinaryAlgebra::Maximum => {
-                    Some(Bound { lo: a.lo.max(b.lo), hi: a.hi.max(b.hi), error: a.error.max(b.error) })
-                }
+                BinaryAlgebra::Minimum => Some(a.smaller(b)),
+                BinaryAlgebra::Maximum => Some(a.larger(b)),
                 BinaryAlgebra::Quotient | BinaryAlgebra::Opaque => None,
             }
         }
         Node::Ternary(op, x, lo, hi) if op.row().algebra == TernaryAlgebra::Clamp => {
-            let (x, lo, hi) = (of(x)?, of(lo)?, of(hi)?);
-            let error = x.error.max(lo.error).max(hi.error);
-            Some(Bound { lo: x.lo.max(lo.lo).min(hi.lo), hi: x.hi.max(lo.hi).min(hi.hi), error })
+            Some(of(x)?.larger(of(lo)?).smaller(of(hi)?))
         }
         Node::Ternary(..) => None,
     }
@@ -153,6 +164,9 @@ mod tests {
         assert_eq!(error_of("16777217"), Some(1.0));
         let sum = error_of("x + y").expect("bounded");
         assert!(sum > 2.0 * UNIT && sum < 2.01 * UNIT, "{sum:e}");
+        // Limits that are never met have no part in it.
+        assert_eq!(error_of("clamp(x + y, -1e30, 1e30)"), Some(sum));
+        assert_eq!(error_of("clamp(x + y, 0.3, 1e30)"), error_of("max(x + y, 0.3)"));
         // A product of small numbers may vanish.
         assert!(error_of("1e-30 * x * 1e-10").expect("bounded") >= 1e-40);
     }

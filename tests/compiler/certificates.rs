@@ -74,14 +74,12 @@ fn plans(program: &Program) -> Vec<Plan<'_>> {
 #[test]
 fn plans_of_the_published_tables_are_certified() {
     let solvers = Solver::all();
-    for (table, least) in [("tables/smsr.ron", 16), ("tables/rsmss.ron", 12)] {
+    for (table, least) in [("tables/smsr.ron", 16), ("tables/rsmss.ron", 10)] {
         let program = Program::read(table).or_panic();
         let mut plans = plans(&program);
-        // Of the large table those with assumptions that are made otherwise for that.
+        // Of the large table only the one that makes most of the assumptions.
         let large = program.states.count() > 1000;
-        plans.retain(|plan| {
-            !large || !plan.assumed || matches!(plan.shape, Shape::Gathered | Shape::Coefficients | Shape::Orbit)
-        });
+        plans.retain(|plan| !large || !plan.assumed || plan.shape == Shape::Orbit);
         let shapes: std::collections::BTreeSet<Shape> = plans.iter().map(|plan| plan.shape).collect();
         let fetchless = usize::from(program.fetched.is_empty());
         assert!(plans.len() >= least && shapes.len() == Shape::ALL.len() - fetchless, "{table}: {shapes:?}");
@@ -114,7 +112,6 @@ fn each<T: Sync>(list: &[T], work: impl Fn(&T) + Sync) {
 }
 
 /// Plans with one thing changed, each with what was changed.
-#[cfg(feature = "trial")]
 fn wrong<'p>(plan: &Plan<'p>) -> Vec<(&'static str, Plan<'p>)> {
     let mut all = Vec::new();
     let leaves: Vec<_> =
@@ -166,7 +163,6 @@ fn wrong<'p>(plan: &Plan<'p>) -> Vec<(&'static str, Plan<'p>)> {
 
 /// Each kind of change is found in some plan; where a solver finds no difference, the gate finds none either, or
 /// does not know that it makes none.
-#[cfg(feature = "trial")]
 #[test]
 fn wrong_plans_are_not_certified() {
     let solvers = Solver::all();
@@ -182,7 +178,7 @@ fn wrong_plans_are_not_certified() {
                 // Of each kind some.
                 let count = seen.entry(change).or_insert(0);
                 *count += 1;
-                if *count <= 2 {
+                if *count <= if program.fetched.is_empty() { 2 } else { 1 } {
                     tried.push((change, wrong));
                 }
             }

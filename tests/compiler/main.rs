@@ -3,6 +3,7 @@
 
 mod architecture;
 mod batch;
+#[cfg(feature = "trial")]
 mod certificates;
 mod constants;
 mod emitted_names;
