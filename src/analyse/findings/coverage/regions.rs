@@ -8,11 +8,14 @@ use crate::analyse::sets::space::{Space, View};
 use crate::analyse::values::point::Point;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
-use crate::program::{InputSet, Program};
+use crate::program::{InputSet, LevelSet, Program};
 use crate::table::HitPolicy;
 
 /// Most conditions that a set is described by.
 pub(super) const MOST: usize = 5;
+
+/// Longest condition of which parts are left out.
+const MOST_PARTS: usize = 64;
 
 /// The same of functions with cases. Their values are looked at elsewhere; here only the guards are.
 pub(in crate::analyse) const IN_FUNCTIONS: Analysis =
@@ -79,11 +82,12 @@ pub(super) fn finding(space: &mut Space<'_>, unclaimed: Set, assumed: Set) -> Op
 /// Conditions that together describe a set in full, as a table would write them; nothing if it takes too many, or if
 /// something in them has no name.
 pub(super) fn claim(space: &mut Space<'_>, set: Set) -> Option<Vec<String>> {
-    let patterns = space.sets.patterns(set, MOST);
+    let mut patterns = space.sets.patterns(set, MOST);
     let mut covered = Set::EMPTY;
-    for pattern in &patterns {
+    for pattern in &mut patterns {
         let part = space.sets.pattern(pattern);
         covered = space.sets.or(covered, part);
+        shorten(space, set, pattern);
     }
     let sayable = |space: &Space<'_>, digit: usize| {
         space.input_of(digit).is_some()
@@ -92,6 +96,22 @@ pub(super) fn claim(space: &mut Space<'_>, set: Set) -> Option<Vec<String>> {
     let complete = space.sets.within(set, covered);
     let all = patterns.iter().flatten().all(|(digit, _)| sayable(space, *digit));
     (complete && all).then(|| patterns.iter().map(|pattern| words::condition(space, pattern)).collect())
+}
+
+/// Leaves out what follows from the rest of a pattern: of `x >= 1 && x >= 2` the first.
+fn shorten(space: &mut Space<'_>, set: Set, pattern: &mut Vec<(usize, LevelSet)>) {
+    let mut place = 0;
+    while place < pattern.len() && pattern.len() <= MOST_PARTS {
+        let rest: Vec<_> =
+            pattern.iter().copied().enumerate().filter(|(at, _)| *at != place).map(|(_, part)| part).collect();
+        let wider = space.sets.pattern(&rest);
+        let beyond = space.sets.minus(wider, set);
+        if space.is_void(beyond) {
+            pattern.remove(place);
+        } else {
+            place += 1
+        }
+    }
 }
 
 /// A case that claims what is described, or, if it is not, all that is left.
@@ -133,6 +153,8 @@ mod tests {
             gaps("First", hole),
             ["U0503 no case claims `x >= 10 && y >= 5 && x <= 12 && y <= 7`; the default decides there"]
         );
+        let rows = r#"Case(id: 1, when: "x < 5", value: 1), Case(id: 2, when: "5 <= x && x < 10", value: 2)"#;
+        assert_eq!(gaps("First", rows), ["U0503 no case claims `x >= 10`; the default decides there"]);
         let state = r#"Case(id: 1, when: "b", value: 1), Case(id: 2, when: "!b && (x < 3 || x > 4)", value: 2)"#;
         assert_eq!(gaps("First", state), ["U0503 no case claims `!b && x >= 3 && x <= 4`; the default decides there"]);
     }
