@@ -60,6 +60,25 @@ fn spoken(reading: &Reading<'_>, precision: Precision) -> String {
     }
 }
 
+/// The result as an expression of the table language: `0.5`, `vec2(0.5, 1)`, `[left, right]`, `{a: 1, b: left}`.
+pub fn expression(output: &Output, values: &[f64], precision: Precision) -> String {
+    expressed(&output.read(values), precision)
+}
+
+fn expressed(reading: &Reading<'_>, precision: Precision) -> String {
+    match reading {
+        Reading::Number(_) | Reading::Bool(_) | Reading::Int(_) | Reading::Level(..) => spoken(reading, precision),
+        Reading::Vector(values) => format!("vec{}({})", values.len(), parts(reading, precision).join(", ")),
+        Reading::Record(fields) => {
+            let fields = fields.iter().map(|(name, field)| format!("{name}: {}", expressed(field, precision)));
+            format!("{{{}}}", fields.collect::<Vec<_>>().join(", "))
+        }
+        Reading::List(items) => {
+            format!("[{}]", items.iter().map(|item| expressed(item, precision)).collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
 /// A part of a result. What is made of several words is held together.
 fn inner(reading: &Reading<'_>, precision: Precision) -> String {
     match reading {
@@ -77,6 +96,7 @@ fn inner(reading: &Reading<'_>, precision: Precision) -> String {
 mod tests {
     use super::*;
     use crate::program::{LevelKind, Levels};
+    use crate::table::Same;
 
     #[test]
     fn results_in_words() {
@@ -88,7 +108,7 @@ mod tests {
         assert_eq!(sentence(&number, &[1.0 / 3.0], Precision::F64), "0.3333333333333333");
         assert_eq!(sentence(&vector, &[1.0, 0.5], Precision::F32), "(1, 0.5)");
         assert_eq!(sentence(&Output::Enumeration(levels.clone()), &[1.0], Precision::F32), "yes");
-        let list = Output::List { of: Box::new(Output::Enumeration(levels)), max: 3 };
+        let list = Output::List { of: Box::new(Output::Enumeration(levels)), max: 3, same: Same::Exactly };
         assert_eq!(sentence(&list, &[2.0, 1.0, 0.0, 0.0], Precision::F32), "yes no");
         assert_eq!(sentence(&list, &[0.0; 4], Precision::F32), "an empty list");
         assert_eq!(words(&list, &[0.0; 4], Precision::F32), [""; 0]);
@@ -99,10 +119,12 @@ mod tests {
         let values = [2.0, 1.0, 0.0, 0.0, 0.5, 1.0];
         assert_eq!(sentence(&both, &values, Precision::F32), "edges = [yes no], at = (0.5, 1)");
         assert_eq!(words(&both, &values, Precision::F32), ["yes", "no", "0.5", "1"]);
+        assert_eq!(expression(&both, &values, Precision::F32), "{edges: [yes, no], at: vec2(0.5, 1)}");
         assert_eq!(sentence(&both, &[0.0; 6], Precision::F32), "edges = [], at = (0, 0)");
-        let loops = Output::List { of: Box::new(list.clone()), max: 2 };
+        let loops = Output::List { of: Box::new(list.clone()), max: 2, same: Same::Exactly };
         let values = [2.0, 1.0, 1.0, 0.0, 0.0, 2.0, 0.0, 1.0, 0.0];
         assert_eq!(sentence(&loops, &values, Precision::F32), "[yes] [no yes]");
+        assert_eq!(expression(&loops, &values, Precision::F32), "[[yes], [no, yes]]");
         let counted = record([("lit", &Output::Bool), ("turns", &Output::Int(-1, 1))]);
         assert_eq!(sentence(&counted, &[1.0, -1.0], Precision::F32), "lit = true, turns = -1");
         let nested = record([("n", &number), ("both", &both)]);

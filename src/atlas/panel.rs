@@ -10,7 +10,7 @@ use super::values::{self, Axes, Scale};
 use crate::diag::Failure;
 use crate::explain::reach::{self, Arrival, Reach};
 use crate::program::draw::Draw;
-use crate::program::{DataType, Domain, Program, Scalar, Value};
+use crate::program::{Domain, Program, Value};
 use crate::show::{Precision, sentence};
 
 /// Left and right margin.
@@ -237,5 +237,5 @@ fn footing(program: &Program, index: usize, reached: &Reach, share: Option<f64>,
 
 /// Returns whether results are greys between black and white, so that a scale can be shown.
 pub(super) fn is_grey(program: &Program) -> bool {
-    program.output.data_type() == DataType::Scalar(Scalar::Float)
+    program.output.is_number()
 }

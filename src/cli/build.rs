@@ -139,7 +139,7 @@ fn summary(
             let functions = plural(programs.len(), "function");
             writeln!(out, "{}: {functions}, {examples} run", program.source.name)?;
         } else {
-            let (cases, states) = (plural(program.rows.len(), "case"), plural(program.states.count(), "state"));
+            let (cases, states) = (plural(program.case_count(), "case"), plural(program.states.count(), "state"));
             let (inputs, examples) = (plural(program.inputs.len(), "input"), plural(program.examples.len(), "example"));
             writeln!(out, "{}: {cases}, {inputs}, {states}, {examples} run", program.source.name)?;
         }

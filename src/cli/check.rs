@@ -98,7 +98,7 @@ fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &LintLevels
             out,
             "{verdict} {}: {}, {inputs}{}, {}, {examples} run{}",
             program.source.name,
-            plural(program.rows.len(), "case"),
+            plural(program.case_count(), "case"),
             if fetched > 0 { format!(" ({fetched} fetched)") } else { String::new() },
             plural(program.states.count(), "state"),
             match found.acknowledged.len() {

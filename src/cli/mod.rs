@@ -15,6 +15,7 @@ mod diff;
 #[cfg(feature = "trial")]
 mod errata;
 mod eval;
+mod expand;
 mod explain;
 mod fmt;
 mod input;
@@ -97,6 +98,8 @@ enum Command {
     Eval(eval::Arguments),
     /// Say which case is taken at one point, why, and how its value comes about; or what a code means
     Explain(explain::Arguments),
+    /// List the images that the cases of a table stand for
+    Expand(expand::Arguments),
     /// Say which inputs reach a case, and what lies around them
     Why(why::Arguments),
     /// Count how often each state of a table occurs; merge, show and compare such counts
@@ -205,6 +208,7 @@ pub fn main() -> ExitCode {
         #[cfg(feature = "trial")]
         Command::Errata(arguments) => errata::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, &report),
+        Command::Expand(arguments) => expand::run(&arguments, &report),
         Command::Why(arguments) => why::run(&arguments, &report),
         Command::Profile(arguments) => profile::run(&arguments, &report),
         Command::Report(arguments) => report::run(&arguments, &report),

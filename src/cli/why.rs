@@ -64,7 +64,8 @@ fn shares(profile: &Profile, case: u32) -> Vec<(String, f64)> {
     std::iter::once(all).chain(scenes).collect()
 }
 
-fn missing(program: &Program, case: u32) -> Failure {
+/// The refusal of a case that a table does not have.
+pub(super) fn missing(program: &Program, case: u32) -> Failure {
     let known: Vec<String> = program.rows.iter().take(60).map(|row| row.id.to_string()).collect();
     let more = if program.rows.len() > known.len() { ", ..." } else { "" };
     let error = Diagnostic::error(codes::MISSING_CASE, format!("there is no case {case}"))

@@ -279,7 +279,7 @@ impl<'p> IntervalInterpreter<'p> {
                 _ => Err(Stop::Missing),
             },
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
-            Node::Result => Ok(Interval::ANY),
+            Node::Result(_) => Ok(Interval::ANY),
             Node::Unary(op, a) => {
                 let a = self.number(a)?;
                 let image = Interval::unary(op, a);

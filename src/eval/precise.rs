@@ -199,7 +199,7 @@ impl<'p> Precise<'p> {
             Node::Const(number) => self.constant(number.get()),
             Node::Input(input) => self.input(input)?,
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
-            Node::Result => astro_float_num::NAN,
+            Node::Result(_) => astro_float_num::NAN,
             Node::Unary(op, a) => {
                 let a = self.number(a)?;
                 self.unary(op, &a)

@@ -333,7 +333,7 @@ impl<'p, T: Real> Residual<'p, T> {
                 self.need(known, input)?;
                 self.term(Term::Input(input))
             }
-            Node::Result => self.fixed(T::from_f64(f64::NAN)),
+            Node::Result(_) => self.fixed(T::from_f64(f64::NAN)),
             Node::Unary(op, a) => {
                 let a = self.number(known, a)?;
                 match self.constant(a) {

@@ -189,7 +189,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
                 self.numbers[input.index()]
             }
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
-            Node::Result => T::from_f64(f64::NAN),
+            Node::Result(_) => T::from_f64(f64::NAN),
             Node::Unary(op, a) => T::unary(op, self.number(a)?),
             Node::Binary(op, a, b) => T::binary(op, self.number(a)?, self.number(b)?),
             Node::Ternary(op, a, b, c) => T::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?),

@@ -74,7 +74,7 @@ impl<T: Real> Steps<'_, '_, T> {
         let operands: Vec<ExprId> = match node {
             Node::Const(number) => return Ok(number.get().to_string()),
             Node::Input(input) => return Ok(self.witness.program.inputs[input.index()].name.clone()),
-            Node::Result => return Ok("value".to_owned()),
+            Node::Result(_) => return Ok("value".to_owned()),
             Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => node.children().collect(),
             Node::Select(condition, then, other) => {
                 let holds = self.witness.interpreter.holds(condition)?;
@@ -146,6 +146,6 @@ fn written(node: Node, operands: &[String]) -> String {
         Node::Unary(op, _) => form(op.row().notation),
         Node::Binary(op, ..) => form(op.row().notation),
         Node::Ternary(op, ..) => form(op.row().notation),
-        Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => infix(","),
+        Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Select(..) => infix(","),
     }
 }

@@ -119,7 +119,7 @@ impl Knowledge {
             return *done;
         }
         let result = match pool.node(expr) {
-            Node::Const(_) | Node::Input(_) | Node::Result => expr,
+            Node::Const(_) | Node::Input(_) | Node::Result(_) => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.expr_memo(pool, part, memo));
                 pool.settle(node)

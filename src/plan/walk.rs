@@ -78,7 +78,7 @@ impl<'a, 'p> Walker<'a, 'p> {
                     for (_, index) in plan.symmetries.iter().enumerate().filter(|(bit, _)| entry >> bit & 1 == 1) {
                         point = self.turned(*index, &point, &mut interpreter)?;
                         interpreter.place(&point)?;
-                        results.splice(0..0, self.program.symmetries[*index].result);
+                        results.splice(0..0, self.program.symmetries[*index].result.as_deref());
                     }
                     at = arms[entry >> plan.symmetries.len()];
                 }
@@ -103,10 +103,10 @@ impl<'a, 'p> Walker<'a, 'p> {
                 }
                 Step::Leaf(leaf) => {
                     (walked.row, walked.line) = (leaf.row, leaf.line);
-                    for value in &leaf.values {
-                        let value = interpreter.number(*value)?;
-                        walked.values.push(results.iter().fold(value, |value, map| self.result(*map, value)));
-                    }
+                    let values = leaf.values.iter().map(|value| interpreter.number(*value));
+                    walked.values = results.iter().fold(values.collect::<Result<Vec<_>, _>>()?, |values, map| {
+                        map.iter().map(|component| self.result(*component, &values)).collect()
+                    });
                     return Ok(walked);
                 }
             }
@@ -135,15 +135,15 @@ impl<'a, 'p> Walker<'a, 'p> {
         Ok(turned)
     }
 
-    /// The result map of a symmetry, applied to a result.
-    fn result(&self, map: ExprId, value: f32) -> f32 {
+    /// A component of a result, mapped by a symmetry.
+    fn result(&self, map: ExprId, values: &[f32]) -> f32 {
         match self.program.pool.node(map) {
             Node::Const(number) => number.get() as f32,
-            Node::Result => value,
-            Node::Unary(op, a) => f32::unary(op, self.result(a, value)),
-            Node::Binary(op, a, b) => f32::binary(op, self.result(a, value), self.result(b, value)),
+            Node::Result(component) => values.get(usize::from(component)).copied().unwrap_or(f32::NAN),
+            Node::Unary(op, a) => f32::unary(op, self.result(a, values)),
+            Node::Binary(op, a, b) => f32::binary(op, self.result(a, values), self.result(b, values)),
             Node::Ternary(op, a, b, c) => {
-                f32::ternary(op, self.result(a, value), self.result(b, value), self.result(c, value))
+                f32::ternary(op, self.result(a, values), self.result(b, values), self.result(c, values))
             }
             // A result map is about the result alone.
             Node::Input(_) | Node::Select(..) => f32::NAN,

@@ -188,7 +188,7 @@ pub struct Accuracy {
     pub span: Span,
 }
 
-/// A row: one case of the technique.
+/// A row: one case of the technique, or one of its images.
 #[derive(Debug, Clone)]
 pub struct Row {
     /// The number of the case.
@@ -199,6 +199,8 @@ pub struct Row {
     pub guard: CondId,
     /// The place of the guard.
     pub guard_span: Span,
+    /// The symmetries, in order, under which this is the image of its case; none for the case itself.
+    pub under: Vec<String>,
     /// Its value.
     pub lines: Vec<Line>,
     /// Section of the source that defines it.
@@ -258,7 +260,7 @@ pub struct Symmetry {
     /// Continuous inputs that change, with their values in the image.
     pub numbers: Vec<(InputId, ExprId)>,
     /// The result in terms of that at the image, [`Node::Result`], if they differ.
-    pub result: Option<ExprId>,
+    pub result: Option<Vec<ExprId>>,
     /// The place of its declaration.
     pub span: Span,
 }
@@ -285,7 +287,7 @@ pub enum ContinuityKind {
 /// Inputs with the expected result.
 #[derive(Debug, Clone)]
 pub struct Example {
-    /// The row it belongs to, as an index into [`Program::rows`].
+    /// The row it belongs to, as an index into [`Program::rows`]; of a case with images the first of its rows.
     pub row: usize,
     /// Its place.
     pub span: Span,
@@ -371,6 +373,11 @@ impl Program {
     /// The name of the table: that of the program, or, for a function, the one before its own.
     pub fn table(&self) -> &str {
         self.function.as_ref().map_or(&self.name, |function| &function.table)
+    }
+
+    /// The number of cases, each counted once whatever images it has.
+    pub fn case_count(&self) -> usize {
+        self.rows.iter().filter(|row| row.under.is_empty()).count()
     }
 
     /// The input with a name.

@@ -43,7 +43,7 @@ impl<Set> crate::table::Output<Set> {
                 DataType::Structure(fields.iter().map(|(name, of)| (name.clone(), of.data_type())).collect())
             }
             Output::Enumeration(_) => DataType::Scalar(Scalar::Uint),
-            Output::List { of, max } => {
+            Output::List { of, max, .. } => {
                 // Codes stand behind their length, and a list after the other, each filled up with zeros.
                 let array = |of: DataType, length| DataType::Array(Box::new(of), length);
                 let item = of.data_type();
@@ -61,6 +61,11 @@ impl<Set> crate::table::Output<Set> {
     /// The components, in the order of the values of a line.
     pub fn components(&self) -> Vec<Component> {
         self.data_type().components()
+    }
+
+    /// Returns whether it is one real number.
+    pub fn is_number(&self) -> bool {
+        self.data_type() == DataType::Scalar(Scalar::Float)
     }
 
     /// Returns whether all components are real numbers.
@@ -113,7 +118,7 @@ impl Output {
             Output::Bool => Reading::Bool(next() != 0.0),
             Output::Int(..) => Reading::Int(next() as i64),
             Output::Enumeration(levels) => level(levels, next()),
-            Output::List { of, max } => {
+            Output::List { of, max, .. } => {
                 let length = next() as usize;
                 // What fills the list up is read as well, for what comes after it.
                 let items: Vec<Reading<'o>> = (0..*max).map(|_| of.read_from(values)).collect();
@@ -147,6 +152,7 @@ fn level(levels: &Levels, index: f64) -> Reading<'_> {
 mod tests {
     use super::*;
     use crate::program::LevelKind;
+    use crate::table::Same;
 
     fn levels() -> Levels {
         Levels { names: ["no", "yes"].map(str::to_owned).into(), codes: vec![0.0, 1.0], kind: LevelKind::Named }
@@ -154,7 +160,7 @@ mod tests {
 
     /// A record with a field of every kind, a record among them.
     fn everything() -> Output {
-        let list = Output::List { of: Box::new(Output::Enumeration(levels())), max: 3 };
+        let list = Output::List { of: Box::new(Output::Enumeration(levels())), max: 3, same: Same::Exactly };
         let inner = Output::Record(vec![("list".to_owned(), list), ("number".to_owned(), Output::Number(None))]);
         Output::Record(vec![
             ("level".to_owned(), Output::Enumeration(levels())),

@@ -25,6 +25,13 @@ impl ExprId {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CondId(u32);
 
+impl CondId {
+    /// Its place in the pool; operands stand before what is made of them.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// A finite `f64` constant that can be compared and hashed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Number(u64);
@@ -48,8 +55,8 @@ pub enum Node {
     Const(Number),
     /// A continuous input.
     Input(InputId),
-    /// The result of the table, in the result map of a symmetry only.
-    Result,
+    /// A component of the result, in the result map of a symmetry only.
+    Result(u16),
     /// An operation on one number.
     Unary(UnaryOp, ExprId),
     /// An operation on two numbers.
@@ -261,7 +268,7 @@ impl Pool {
 
     /// Names an expression; the first name stays.
     pub fn set_label(&mut self, id: ExprId, label: &str) {
-        if !matches!(self.node(id), Node::Const(_) | Node::Input(_) | Node::Result) {
+        if !matches!(self.node(id), Node::Const(_) | Node::Input(_) | Node::Result(_)) {
             self.labels.entry(id).or_insert_with(|| label.to_owned());
         }
     }
@@ -322,9 +329,10 @@ impl Pool {
         self.intern(Node::Input(input))
     }
 
-    /// The result of the table, for the result map of a symmetry.
-    pub fn result(&mut self) -> ExprId {
-        self.intern(Node::Result)
+    /// A component of the result, for the result map of a symmetry.
+    pub fn result(&mut self, component: usize) -> ExprId {
+        debug_assert!(u16::try_from(component).is_ok());
+        self.intern(Node::Result(component as u16))
     }
 
     /// Returns whether an operation can be folded once its operands are known, without a
@@ -347,7 +355,7 @@ impl Pool {
                 [Some(a), Some(b), Some(c)] => agree(op.apply(a, b, c), f32::ternary(op, a as f32, b as f32, c as f32)),
                 _ => true,
             },
-            Node::Const(_) | Node::Input(_) | Node::Result | Node::Select(..) => true,
+            Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Select(..) => true,
         }
     }
 
@@ -363,7 +371,7 @@ impl Pool {
             Node::Binary(op, a, b) => self.binary(op, a, b),
             Node::Ternary(op, a, b, c) => self.ternary(op, a, b, c),
             Node::Select(condition, a, b) => self.select(condition, a, b),
-            Node::Const(_) | Node::Input(_) | Node::Result => self.intern(node),
+            Node::Const(_) | Node::Input(_) | Node::Result(_) => self.intern(node),
         }
     }
 

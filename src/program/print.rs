@@ -70,7 +70,7 @@ impl Printer<'_> {
                 let _ = write!(out, "{}", number.get());
             }
             Node::Input(input) => out.push_str(&self.inputs[input.index()].name),
-            Node::Result => out.push_str("value"),
+            Node::Result(_) => out.push_str("value"),
             Node::Unary(op, a) => match op.row().notation {
                 Notation::Function(name, _) => self.call(out, name, &[a]),
                 symbol @ (Notation::Prefix(_) | Notation::Infix(_)) => {

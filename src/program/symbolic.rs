@@ -30,8 +30,8 @@ const MAX_PATHS: usize = 1 << 14;
 pub(crate) struct View<'s> {
     /// Whose images the inputs stand for.
     pub(crate) symmetry: Option<&'s Symmetry>,
-    /// The value of the result, in the result map of a symmetry.
-    pub(crate) result: Option<ExprId>,
+    /// The components of the result, in the result map of a symmetry.
+    pub(crate) result: Option<&'s [ExprId]>,
 }
 
 impl View<'_> {
@@ -333,7 +333,9 @@ impl<'p> Machine<'p> {
         }
         let result = match self.pool.node(expr) {
             Node::Const(_) => return expr,
-            Node::Result => view.result.unwrap_or(expr),
+            Node::Result(component) => {
+                view.result.and_then(|values| values.get(usize::from(component)).copied()).unwrap_or(expr)
+            }
             Node::Input(input) => {
                 let image = view.symmetry.and_then(|s| s.numbers.iter().find(|(mapped, _)| *mapped == input));
                 match image {
@@ -361,7 +363,7 @@ impl<'p> Machine<'p> {
     /// A resolved expression with every minimum and maximum decided, so that it is affine if it can be.
     fn flatten(&mut self, expr: ExprId) -> ExprId {
         match self.pool.node(expr) {
-            Node::Const(_) | Node::Result | Node::Input(_) | Node::Select(..) => expr,
+            Node::Const(_) | Node::Result(_) | Node::Input(_) | Node::Select(..) => expr,
             Node::Unary(op, a) => {
                 let a = self.flatten(a);
                 let zero = self.pool.number(0.0);

@@ -25,8 +25,8 @@ pub(crate) fn is_usable(program: &Program, symmetry: &Symmetry) -> bool {
             !facts.selects && facts.inputs.and(program.fetched).is_empty()
         }
     });
-    let result = symmetry.result.is_none_or(|result| {
-        let facts = program.pool.expr_facts(result);
+    let result = symmetry.result.iter().flatten().all(|component| {
+        let facts = program.pool.expr_facts(*component);
         !facts.selects && facts.inputs.is_empty()
     });
     levels && numbers && result && image_of_state(program, symmetry, 0).is_some()
@@ -36,14 +36,18 @@ pub(crate) fn is_usable(program: &Program, symmetry: &Symmetry) -> bool {
 /// comes from: the result at the image, mapped.
 pub(crate) fn said(machine: &mut Machine<'_>, symmetry: &Symmetry) -> (Option<usize>, Vec<ExprId>) {
     let (row, values) = machine.run(View { symmetry: Some(symmetry), result: None });
-    (row, mapped(machine, symmetry.result, values))
+    (row, mapped(machine, symmetry.result.iter().map(Vec::as_slice), values))
 }
 
 /// Results, mapped one map after the other.
-fn mapped(machine: &mut Machine<'_>, maps: impl IntoIterator<Item = ExprId>, values: Vec<ExprId>) -> Vec<ExprId> {
+fn mapped<'m>(
+    machine: &mut Machine<'_>,
+    maps: impl IntoIterator<Item = &'m [ExprId]>,
+    values: Vec<ExprId>,
+) -> Vec<ExprId> {
     maps.into_iter().fold(values, |values, map| {
-        let image = |value| machine.resolve(map, View { symmetry: None, result: Some(value) });
-        values.into_iter().map(image).collect()
+        let view = View { symmetry: None, result: Some(&values) };
+        map.iter().map(|component| machine.resolve(*component, view)).collect()
     })
 }
 
@@ -100,7 +104,7 @@ pub(crate) struct Turn {
     /// The images of the inputs.
     pub(crate) symmetry: Symmetry,
     /// The maps that turn the result back, the last symmetry first.
-    results: Vec<ExprId>,
+    results: Vec<Vec<ExprId>>,
     identity: bool,
 }
 
@@ -156,7 +160,7 @@ impl Turn {
                 turn.symmetry.numbers.retain(|(known, _)| *known != input);
                 turn.symmetry.numbers.push((input, image));
             }
-            turn.results.splice(0..0, next.result);
+            turn.results.splice(0..0, next.result.clone());
         }
         Some(turn)
     }
@@ -175,7 +179,7 @@ impl Turn {
 
     fn number(&self, pool: &mut Pool, expr: ExprId) -> ExprId {
         match pool.node(expr) {
-            Node::Const(_) | Node::Result | Node::Select(..) => expr,
+            Node::Const(_) | Node::Result(_) | Node::Select(..) => expr,
             Node::Input(input) => {
                 let known = self.symmetry.numbers.iter().find(|(known, _)| *known == input);
                 known.map_or(expr, |(_, image)| *image)
@@ -200,14 +204,14 @@ impl Turn {
     /// Values at the turned inputs, turned back.
     pub(crate) fn back(&self, machine: &mut Machine<'_>, values: &[ExprId]) -> Vec<ExprId> {
         let turned = values.iter().map(|value| machine.resolve(*value, self.view())).collect();
-        mapped(machine, self.results.iter().copied(), turned)
+        mapped(machine, self.results.iter().map(Vec::as_slice), turned)
     }
 
     /// The result that the program has on the machine's path if it has the symmetries of the word one
     /// after the other.
     pub(crate) fn said(&self, machine: &mut Machine<'_>) -> Vec<ExprId> {
         let (_, values) = machine.run(self.view());
-        mapped(machine, self.results.iter().copied(), values)
+        mapped(machine, self.results.iter().map(Vec::as_slice), values)
     }
 
     /// The fetched inputs that stand behind one.

@@ -445,7 +445,7 @@ impl<'a, 'p> Prover<'a, 'p> {
             return *done;
         }
         let result = match self.pool.node(expr) {
-            Node::Const(_) | Node::Result | Node::Input(_) => expr,
+            Node::Const(_) | Node::Result(_) | Node::Input(_) => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.decided_memo(part, memo));
                 self.pool.settle(node)
@@ -506,7 +506,7 @@ impl<'a, 'p> Prover<'a, 'p> {
                 let least = self.plan.program.inputs[input.index()].least();
                 self.pool.number(least)
             }
-            Node::Const(_) | Node::Result | Node::Input(_) => expr,
+            Node::Const(_) | Node::Result(_) | Node::Input(_) => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.resolve_memo(part, fetched, memo));
                 self.pool.settle(node)

@@ -86,7 +86,7 @@ fn lead(program: &Program) -> String {
         "{}, {}: {} cases, {policy}; {} inputs, {} states.{source}",
         program.source.name,
         program.fingerprint(),
-        program.rows.len(),
+        program.case_count(),
         program.inputs.len(),
         program.states.count(),
     )

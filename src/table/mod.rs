@@ -26,7 +26,7 @@ use expr::Expr;
 
 pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
 pub(crate) use output::MAX_FIELDS;
-pub use output::Output;
+pub use output::{Output, Same};
 pub use parse::MAX_DEPTH;
 
 /// Largest accepted table file, in bytes.
@@ -159,10 +159,37 @@ pub struct Symmetry {
     pub name: Spanned<String>,
     /// For each input that changes: what its new value is made of.
     pub map: Vec<(Spanned<String>, Image)>,
-    /// The result in terms of `value`, the result of the mapped input.
-    pub result: Option<Expr>,
+    /// The map of the result, if it changes.
+    pub result: Option<ResultMap>,
     /// Its description.
     pub doc: String,
+}
+
+/// A map of a result.
+#[derive(Debug, Clone)]
+pub enum ResultMap {
+    /// The result in terms of `value`, the result at the mapped inputs.
+    Expr(Expr),
+    /// Fields of a record with their maps, or levels with what becomes of them.
+    Parts(Span, Vec<(Spanned<String>, ResultMap)>),
+}
+
+impl ResultMap {
+    /// The place of the map.
+    pub fn span(&self) -> Span {
+        match self {
+            ResultMap::Expr(expr) => expr.span,
+            ResultMap::Parts(span, _) => *span,
+        }
+    }
+
+    /// The expressions in it, names of levels among them.
+    pub fn exprs(&self) -> Vec<&Expr> {
+        match self {
+            ResultMap::Expr(expr) => vec![expr],
+            ResultMap::Parts(_, parts) => parts.iter().flat_map(|(_, part)| part.exprs()).collect(),
+        }
+    }
 }
 
 /// The image of one input under a symmetry.
@@ -259,13 +286,17 @@ pub enum CaseBody {
         when: Expr,
         /// The lines; at least one.
         lines: Vec<Line>,
+        /// The symmetries under whose images the case stands as well.
+        images: Vec<Spanned<String>>,
     },
-    /// Another case under a symmetry.
+    /// Another case under symmetries.
     Image {
-        /// The case that is written out.
+        /// The other case.
         case: Spanned<u32>,
-        /// The symmetry.
-        under: Spanned<String>,
+        /// The symmetries, one after the other; at least one.
+        under: Vec<Spanned<String>>,
+        /// The place of all of them.
+        span: Span,
     },
 }
 

@@ -4,6 +4,8 @@
 //! says its level sets: by name in a table, by their levels in a
 //! [`Program`](crate::program::Program).
 
+use std::cmp::Ordering;
+
 use serde::Deserialize;
 
 use super::names;
@@ -41,7 +43,49 @@ pub enum Output<Set> {
         of: Box<Output<Set>>,
         /// Most items, 1 to 64.
         max: usize,
+        /// When two such lists mean the same.
+        same: Same,
     },
+}
+
+/// When two lists mean the same. Checks ask for it; what a table returns does not depend on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+pub enum Same {
+    /// If their items are equal one by one.
+    #[default]
+    Exactly,
+    /// If they consist of the same groups of so many items, which are turned and stand in any
+    /// order: triangles, for instance.
+    Groups(usize),
+    /// If one is the other, turned: a closed polygon.
+    Cyclic,
+    /// If they have the same items in any order.
+    Any,
+}
+
+impl Same {
+    /// Brings a list into the form that all lists of the same meaning have.
+    fn sort<T: Clone>(self, items: &mut [T], order: &impl Fn(&T, &T) -> Ordering) {
+        let lists = |a: &[T], b: &[T]| {
+            let differ = a.iter().zip(b).map(|(a, b)| order(a, b)).find(|order| order.is_ne());
+            differ.unwrap_or_else(|| a.len().cmp(&b.len()))
+        };
+        match self {
+            Same::Exactly => {}
+            Same::Any => items.sort_by(order),
+            Same::Cyclic => {
+                let turned = |by: usize| [&items[by..], &items[..by]].concat();
+                let least = (0..items.len()).map(turned).min_by(|a, b| lists(a, b));
+                least.iter().for_each(|least| items.clone_from_slice(least));
+            }
+            Same::Groups(size) => {
+                let mut groups: Vec<Vec<T>> = items.chunks(size.max(1)).map(<[T]>::to_vec).collect();
+                groups.iter_mut().for_each(|group| Same::Cyclic.sort(group, order));
+                groups.sort_by(|a, b| lists(a, b));
+                items.clone_from_slice(&groups.concat());
+            }
+        }
+    }
 }
 
 /// An output as it is declared, and the place and name of what came with version 2 of the language.
@@ -54,7 +98,36 @@ impl<Set> Output<Set> {
             Output::Number(_) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => 1,
             Output::Vector(size, _) => *size,
             Output::Record(fields) => fields.iter().map(|(_, of)| of.size()).sum(),
-            Output::List { of, max } => 1 + max * of.size(),
+            Output::List { of, max, .. } => 1 + max * of.size(),
+        }
+    }
+
+    /// Brings a result into the form that all results of the same meaning have, as far as the
+    /// lengths and the items of its lists are known as numbers.
+    pub(crate) fn sort<T: Clone>(&self, components: &mut [T], number: &impl Fn(&T) -> Option<f64>) {
+        match self {
+            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => {}
+            Output::Record(fields) => {
+                let mut rest = components;
+                for (_, of) in fields {
+                    let (own, others) = rest.split_at_mut(of.size());
+                    of.sort(own, number);
+                    rest = others;
+                }
+            }
+            Output::List { of, same, .. } => {
+                let Some((length, items)) = components.split_first_mut() else { return };
+                let known = |items: &[T]| items.iter().map(number).collect::<Option<Vec<f64>>>();
+                let Some(length) = number(length).map(|length| length as usize) else { return };
+                let Some(taken) = items.get_mut(..length * of.size()) else { return };
+                taken.chunks_mut(of.size()).for_each(|item| of.sort(item, number));
+                if *same == Same::Exactly || known(taken).is_none() {
+                    return;
+                }
+                let mut list: Vec<Vec<T>> = taken.chunks(of.size()).map(<[T]>::to_vec).collect();
+                same.sort(&mut list, &|a, b| known(a).partial_cmp(&known(b)).unwrap_or(Ordering::Equal));
+                taken.clone_from_slice(&list.concat());
+            }
         }
     }
 
@@ -82,7 +155,7 @@ impl<Set> Output<Set> {
                 Output::Record(fields.iter().map(field).collect::<Result<_, E>>()?)
             }
             Output::Enumeration(of) => Output::Enumeration(set(of)?),
-            Output::List { of, max } => Output::List { of: Box::new(of.try_map(set)?), max: *max },
+            Output::List { of, max, same } => Output::List { of: Box::new(of.try_map(set)?), max: *max, same: *same },
         })
     }
 }
@@ -111,6 +184,8 @@ enum OutputRon<'a> {
     List {
         of: Raw<'a>,
         max: usize,
+        #[serde(default)]
+        same: Same,
     },
     Record(RawMap<'a>),
 }
@@ -181,7 +256,13 @@ impl<'a> Reader<'a> {
             OutputRon::List { .. } if within == Within::ListOfLists => {
                 return domain("lists are nested too deeply", "a list in a list in a list".to_owned());
             }
-            OutputRon::List { of, max } => {
+            OutputRon::List { same: Same::Groups(0), .. } => {
+                return domain("groups of no items", "expected `same: Groups(3)`, for instance".to_owned());
+            }
+            OutputRon::List { of, max, same } => {
+                if same != Same::Exactly {
+                    since("`same`");
+                }
                 let of = match self.shape(of) {
                     Shape::Variant(_) => {
                         since("a list of other things than levels");
@@ -192,7 +273,7 @@ impl<'a> Reader<'a> {
                         Output::Enumeration(self.word(of)?)
                     }
                 };
-                (None, Output::List { of: Box::new(of), max })
+                (None, Output::List { of: Box::new(of), max, same })
             }
             OutputRon::Record(_) if within != Within::Nothing => {
                 return Err(Diagnostic::error(codes::DOMAIN, "a record stands in a record or a list")

@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
 use super::{
     Allow, Assumption, Case, CaseBody, Continuity, ContinuityKind, Domain, Erratum, Example, Group, HitPolicy, Image,
-    Input, LANGUAGE, Level, Line, Named, Output, Symmetry, Table,
+    Input, LANGUAGE, Level, Line, Named, Output, ResultMap, Symmetry, Table,
 };
 use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
 use crate::text::raw::{Raw, RawMap, Reader, Shape};
@@ -172,6 +172,8 @@ struct CaseRon<'a> {
     lines: Option<Vec<Raw<'a>>>,
     #[serde(default)]
     is: Option<Raw<'a>>,
+    #[serde(default)]
+    images: Vec<Raw<'a>>,
     #[serde(default)]
     errata: Vec<ErratumRon>,
     #[serde(default)]
@@ -508,8 +510,19 @@ impl<'a> Reader<'a> {
     fn symmetry(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Symmetry> {
         let ron: SymmetryRon<'a> = self.get(raw)?;
         let map = ron.map.0.iter().map(|(n, i)| Ok((self.word(*n)?, self.image(*i)?))).collect::<Result<_>>()?;
-        let result = ron.result.map(|r| self.expr(r)).transpose()?;
+        let result = ron.result.map(|r| self.result_map(r)).transpose()?;
         Ok(Symmetry { name: self.word(name)?, map, result, doc: ron.doc })
+    }
+
+    fn result_map(&self, raw: Raw<'a>) -> Result<ResultMap> {
+        match self.shape(raw) {
+            Shape::Map => {
+                let parts: RawMap<'a> = self.get(raw)?;
+                let parts = parts.0.iter().map(|(name, part)| Ok((self.word(*name)?, self.result_map(*part)?)));
+                Ok(ResultMap::Parts(self.span(raw), parts.collect::<Result<_>>()?))
+            }
+            _ => self.level_or_expr(raw).map(ResultMap::Expr),
+        }
     }
 
     fn image(&self, raw: Raw<'a>) -> Result<Image> {
@@ -571,10 +584,20 @@ impl<'a> Reader<'a> {
                 .at(span, "this case")
                 .help("a case has `when` with `value` or `lines`, or it has `is` alone"))
         };
+        let images = ron.images.into_iter().map(|name| self.word(name)).collect::<Result<Vec<_>>>()?;
+        if let (Some(image), Some(_)) = (images.first(), ron.is) {
+            return Err(Diagnostic::error(
+                codes::CASE_SHAPE,
+                format!("case {}: an image has no images of its own", id.value),
+            )
+            .at(image.span, "`images` stand with a guard and a value")
+            .help("name all symmetries in the `images` of the case that is written out"));
+        }
         let body = match (ron.when, ron.value, ron.lines, ron.is) {
             (Some(when), Some(value), None, None) => CaseBody::Rows {
                 when: self.condition(when)?,
                 lines: vec![Line { value: self.expr(value)?, condition: None }],
+                images,
             },
             (Some(when), None, Some(lines), None) => {
                 let lines = lines.into_iter().map(|line| self.line(line)).collect::<Result<Vec<_>>>()?;
@@ -592,11 +615,23 @@ impl<'a> Reader<'a> {
                         .at(last.value.span, "this one always applies")
                         .help("the first line that applies counts; a line without a condition comes last"));
                 }
-                CaseBody::Rows { when: self.condition(when)?, lines }
+                CaseBody::Rows { when: self.condition(when)?, lines, images }
             }
             (None, None, None, Some(is)) => {
                 let image: ImageOfRon<'a> = self.get(is)?;
-                CaseBody::Image { case: self.spanned(image.case)?, under: self.word(image.under)? }
+                let names = match self.shape(image.under) {
+                    Shape::List => self.get::<Vec<Raw<'a>>>(image.under)?,
+                    _ => vec![image.under],
+                };
+                if names.is_empty() {
+                    return Err(Diagnostic::error(
+                        codes::CASE_SHAPE,
+                        format!("case {} is an image under nothing", id.value),
+                    )
+                    .at(self.span(image.under), "expected the name of a symmetry, or several in a list"));
+                }
+                let under = names.into_iter().map(|name| self.word(name)).collect::<Result<_>>()?;
+                CaseBody::Image { case: self.spanned(image.case)?, under, span: self.span(image.under) }
             }
             (None, None, None, None) => return shape("has neither guard nor value"),
             (None, ..) => return shape("has no guard (`when`)"),

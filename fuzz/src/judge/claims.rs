@@ -463,7 +463,7 @@ impl Trace<'_> {
             }
             node @ (Node::Const(_)
             | Node::Input(_)
-            | Node::Result
+            | Node::Result(_)
             | Node::Unary(..)
             | Node::Binary(..)
             | Node::Ternary(..)) => {

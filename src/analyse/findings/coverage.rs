@@ -121,11 +121,18 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let dead = dead(study);
     // Without an order no case comes first, and one that says what another says may stand.
     let ordered = program.hit_policy == HitPolicy::First;
-    let warned = dead.iter().filter(|dead| ordered || dead.covered_by.is_empty());
+    // An image that another one makes superfluous was written by nobody.
+    let is_dead = |row: usize| dead.binary_search_by_key(&row, |dead| dead.row).is_ok();
+    let whole = |row: usize| {
+        let case = &program.rows[row];
+        let images = (0..program.rows.len()).filter(|other| program.rows[*other].id == case.id);
+        case.under.is_empty() && images.into_iter().all(is_dead)
+    };
+    let warned = dead.iter().filter(|dead| whole(dead.row) && (ordered || dead.covered_by.is_empty()));
     let mut found: Vec<Diagnostic> = warned.map(|dead| never_taken(program, dead)).collect();
     for row in 0..program.rows.len() {
         let reached = study.space.can_meet(study.rows.taken[row], study.assumed);
-        if !reached && dead.binary_search_by_key(&row, |dead| dead.row).is_err() {
+        if !reached && !is_dead(row) && program.rows[row].under.is_empty() {
             found.push(not_reached(study, row));
         }
     }

@@ -43,8 +43,9 @@ fn run(program: &Program, interpreter: &mut Interpreter<'_, f32>, example: &Exam
     let expected = sentence(&program.output, &example.expected, Precision::F32);
     let got: Vec<f64> = outcome.values.iter().map(|v| f64::from(*v)).collect();
     let got_shown = sentence(&program.output, &got, Precision::F32);
-    if outcome.row != Some(example.row) {
-        let error = match outcome.row.map(|taken| &program.rows[taken]) {
+    let taken = outcome.row.map(|taken| &program.rows[taken]);
+    if taken.is_none_or(|taken| taken.id != row.id) {
+        let error = match taken {
             Some(taken) => fails(format!("is taken by case {}", taken.id))
                 .at(
                     example.span,
@@ -69,7 +70,7 @@ fn run(program: &Program, interpreter: &mut Interpreter<'_, f32>, example: &Exam
         return None;
     }
     let error = fails("has another value".to_owned()).at(example.span, format!("expected {expected}, got {got_shown}"));
-    Some(match outcome.line.map(|line| &row.lines[line]) {
+    Some(match taken.zip(outcome.line).map(|(taken, line)| &taken.lines[line]) {
         Some(line) => error.at(line.span, "computed here"),
         None => error.help("no line of the case applies, so the default gives the value"),
     })

@@ -11,7 +11,7 @@ use crate::analyse::sets::space::Space;
 use crate::analyse::sets::study::Study;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
-use crate::program::{InputSet, LevelSet, Program};
+use crate::program::{InputSet, LevelSet, Program, Row};
 use crate::table::HitPolicy;
 
 /// Two cases whose guards can hold together.
@@ -137,12 +137,32 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
             conflicts.push((first, later));
         }
     }
+    let images = images_that_differ(program, &mut conflicts);
+    let mut found: Vec<Diagnostic> =
+        images.into_iter().filter_map(|(first, second)| contradiction(study, first, second)).collect();
     if unique {
         let pairs = conflicts.iter().flat_map(|(first, later)| later.iter().map(|second| (*first, *second)));
-        return pairs.filter_map(|(first, second)| contradiction(study, first, second)).collect();
+        found.extend(pairs.filter_map(|(first, second)| contradiction(study, first, second)));
+        return found;
     }
     let suggest = conflicts.iter().map(|(_, later)| later.len()).sum::<usize>() <= MAX_PAIRS;
-    conflicts.iter().map(|(first, later)| order_matters(study, *first, later, suggest)).collect()
+    found.extend(conflicts.iter().map(|(first, later)| order_matters(study, *first, later, suggest)));
+    found
+}
+
+/// Takes the pairs of images of one case out of what conflicts, and returns one pair of each such case.
+/// The images are written once, so none of them comes first on purpose.
+fn images_that_differ(program: &Program, conflicts: &mut Vec<(usize, Vec<usize>)>) -> Vec<(usize, usize)> {
+    let mut images: Vec<(usize, usize)> = Vec::new();
+    for (first, later) in conflicts.iter_mut() {
+        let id = program.rows[*first].id;
+        if images.iter().all(|(other, _)| program.rows[*other].id != id) {
+            images.extend(later.iter().find(|second| program.rows[**second].id == id).map(|second| (*first, *second)));
+        }
+        later.retain(|second| program.rows[*second].id != id);
+    }
+    conflicts.retain(|(_, later)| !later.is_empty());
+    images
 }
 
 fn order_matters(study: &mut Study<'_>, first: usize, later: &[usize], suggest: bool) -> Diagnostic {
@@ -228,20 +248,38 @@ fn contradiction(study: &mut Study<'_>, first: usize, second: usize) -> Option<D
     let program = study.program;
     let (first, second) = (&program.rows[first], &program.rows[second]);
     let what = if overlap.certain { "both hold" } else { "may both hold" };
-    let message = format!("cases {} and {} {what}, with different values", first.id, second.id);
+    let images = first.id == second.id;
+    let message = match images {
+        true => format!("two images of case {} {what}, with different values", first.id),
+        false => format!("cases {} and {} {what}, with different values", first.id, second.id),
+    };
     let diagnostic = match overlap.certain {
         true => Diagnostic::error(codes::NOT_UNIQUE, message),
         // What is not linear cannot be decided here, and no table is refused for that.
         false => Diagnostic::warning(codes::NOT_UNIQUE, message),
     };
+    let states = match overlap.example_state {
+        Some(place) => format!("in {}, such as at {place}", words::states(overlap.states_different)),
+        None => format!("in {}", words::states(overlap.states_different)),
+    };
+    if images {
+        let named = |row: &Row| match row.under.is_empty() {
+            true => "as it is written".to_owned(),
+            false => format!("under {}", row.under.join(", then ")),
+        };
+        return Some(
+            diagnostic
+                .at(first.guard_span, "the guard of this case")
+                .help(format!("one is the case {}, the other {}", named(first), named(second)))
+                .help(states)
+                .help("where images meet they must agree; `same` in the output says which lists mean the same"),
+        );
+    }
     let finding = diagnostic
         .at(second.guard_span, format!("the guard of case {}", second.id))
         .at(first.guard_span, format!("the guard of case {}", first.id))
         .at(program.hit_policy_span, "but at most one case may decide")
-        .help(match overlap.example_state {
-            Some(place) => format!("in {}, such as at {place}", words::states(overlap.states_different)),
-            None => format!("in {}", words::states(overlap.states_different)),
-        })
+        .help(states)
         .help("make the guards exclude each other, or say `hit_policy: First`");
     Some(finding)
 }

@@ -18,6 +18,7 @@ use crate::analyse::values::point::Point;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{ExprId, InputSet, Program, Symmetry};
+use crate::show::{self, Precision};
 
 /// Two pieces of a program that contradict each other under a symmetry.
 struct Contradiction {
@@ -55,8 +56,12 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut assumed: BTreeMap<(Option<usize>, usize), Vec<Contradiction>> = BTreeMap::new();
     let all: Vec<usize> = (0..program.symmetries.len()).collect();
     let plain: Vec<usize> = all.iter().copied().filter(|s| program.symmetries[*s].result.is_none()).collect();
+    // Nobody said what becomes of a level or a vector, unless the symmetry says it.
+    let says = |number: &usize| program.output.is_number() || program.symmetries[*number].result.is_some();
+    let (all, plain): (Vec<usize>, Vec<usize>) =
+        (all.into_iter().filter(says).collect(), plain.into_iter().filter(says).collect());
     let mut found: Vec<Diagnostic> = Vec::new();
-    for number in 0..program.symmetries.len() {
+    for number in all.clone() {
         let mut open: Vec<Option<usize>> = Vec::new();
         let (broken, saved) = contradictions(study, number);
         for contradiction in saved {
@@ -181,14 +186,13 @@ fn contradictions(study: &mut Study<'_>, number: usize) -> (Vec<Contradiction>, 
 
 /// The set where a value is not that of the image, mapped as results are.
 fn differ(study: &mut Study<'_>, symmetry: &Symmetry, piece: &Piece, image: &Piece) -> Set {
-    let Some(map) = symmetry.result else { return study.space.different(&piece.values, &image.values) };
-    let mut result = Set::EMPTY;
-    for (value, other) in piece.values.iter().zip(&image.values) {
-        let said = study.space.with_result(map, *other);
-        let different = study.space.different(&[*value], &[said]);
-        result = study.space.sets.or(result, different);
+    match &symmetry.result {
+        None => study.space.different(&piece.values, &image.values),
+        Some(map) => {
+            let said = study.space.with_result(map, &image.values);
+            study.space.different(&piece.values, &said)
+        }
     }
-    result
 }
 
 /// The line that gives the value at a place, or what stands in for it.
@@ -239,7 +243,7 @@ fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnos
     let wrong: Vec<ExprId> =
         wrong.iter().map(|value| orbit::chosen(&mut study.space.pool, *value, &odd.point)).collect();
     let right = orbit::expected(study, opponent)?;
-    let (was, should) = (words::simplified(&mut study.space, &wrong), words::simplified(&mut study.space, &right));
+    let (was, should) = (written(study, &wrong), written(study, &right));
     let name = called(program, place);
     let (most, total) = odd.votes;
     let message = format!("{name} is the odd one out: {most} of {total} images agree on another value");
@@ -251,14 +255,13 @@ fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnos
         warning =
             warning.at(span(program, other, symmetric), format!("{} says {should} for it", called(program, other)));
     }
-    let numbers = |values: &[f64]| values.iter().map(|value| words::short(*value)).collect::<Vec<_>>().join(", ");
     let own = &orbit.members[0];
     let what = format!(
         "at {} it gives {}, its images under {} say {}",
         place_at(study, &odd.point, row),
-        numbers(&own.says),
+        short(program, &own.says),
         by(program, &odd.along),
-        numbers(&opponent.says)
+        short(program, &opponent.says)
     );
     Some(warning.help(what).help(match line {
         Some(_) => format!("to mend it, write `{should}` for `{was}` there"),
@@ -278,7 +281,7 @@ fn undecided(
     let own = &orbit.members[0];
     let (here, there) = ((own.outcome.row, own.outcome.line), (opponent.outcome.row, opponent.outcome.line));
     let should = orbit::expected(study, opponent)?;
-    let should = words::simplified(&mut study.space, &should);
+    let should = written(study, &should);
     let mut rows: Vec<Option<usize>> = first.iter().chain(second).copied().collect();
     rows.sort_unstable();
     rows.dedup();
@@ -288,12 +291,18 @@ fn undecided(
         _ => format!("{names} contradict each other as images"),
     };
     let symmetric = program.symmetries[along[0]].span;
-    let mut warning = Diagnostic::warning(codes::SYMMETRY_BROKEN, message)
-        .at(span(program, here, symmetric), format!("{} gives {} here", called(program, here), short(&own.says)));
+    let mut warning = Diagnostic::warning(codes::SYMMETRY_BROKEN, message).at(
+        span(program, here, symmetric),
+        format!("{} gives {} here", called(program, here), short(program, &own.says)),
+    );
     if there != here {
         warning = warning.at(
             span(program, there, symmetric),
-            format!("{} says {} for the same, that is {should}", called(program, there), short(&opponent.says)),
+            format!(
+                "{} says {} for the same, that is {should}",
+                called(program, there),
+                short(program, &opponent.says)
+            ),
         );
     }
     let at = place_at(study, point, here.0);
@@ -304,8 +313,22 @@ fn undecided(
     )
 }
 
-fn short(values: &[f64]) -> String {
-    values.iter().map(|value| words::short(*value)).collect::<Vec<_>>().join(", ")
+/// A result as one says it.
+fn short(program: &Program, values: &[f64]) -> String {
+    match program.output.is_real() {
+        true => values.iter().map(|value| words::short(*value)).collect::<Vec<_>>().join(", "),
+        false => show::expression(&program.output, values, Precision::F32),
+    }
+}
+
+/// A result as one writes it down: levels by name.
+fn written(study: &mut Study<'_>, values: &[ExprId]) -> String {
+    let output = &study.program.output;
+    let constants: Option<Vec<f64>> = values.iter().map(|value| study.space.pool.constant(*value)).collect();
+    match constants.filter(|_| !output.is_real()) {
+        Some(constants) => show::expression(output, &constants, Precision::F32),
+        None => words::simplified(&mut study.space, values),
+    }
 }
 
 /// A note on rows that contradict one row only where no assumption admits it.

@@ -305,10 +305,15 @@ impl<'p> Space<'p> {
         self.sets.not(different)
     }
 
-    /// The set where some components differ, of values without selections.
+    /// The set where two results do not mean the same, of values without selections.
     pub(in crate::analyse) fn different(&mut self, a: &[ExprId], b: &[ExprId]) -> Set {
+        let [a, b] = [a, b].map(|values| {
+            let mut values = values.to_vec();
+            self.program.output.sort(&mut values, &|value| self.pool.constant(*value));
+            values
+        });
         let mut result = Set::EMPTY;
-        for (a, b) in a.iter().zip(b) {
+        for (a, b) in a.iter().zip(&b) {
             if a == b {
                 continue;
             }
@@ -400,7 +405,7 @@ impl<'p> Space<'p> {
             return known.clone();
         }
         let parts = match self.pool.node(expr) {
-            Node::Const(_) | Node::Result => vec![(Set::ALL, expr)],
+            Node::Const(_) | Node::Result(_) => vec![(Set::ALL, expr)],
             Node::Input(input) => {
                 let inner = self.views[view.0].inner;
                 let image = self.views[view.0].numbers.get(&input).copied();
@@ -470,14 +475,51 @@ impl<'p> Space<'p> {
         result
     }
 
-    /// A result map, without selections, of a value.
-    pub(in crate::analyse) fn with_result(&mut self, map: ExprId, value: ExprId) -> ExprId {
+    /// The result map of a symmetry, of values without selections.
+    pub(in crate::analyse) fn with_result(&mut self, map: &[ExprId], values: &[ExprId]) -> Vec<ExprId> {
+        map.iter().map(|component| self.component_with_result(*component, values)).collect()
+    }
+
+    fn component_with_result(&mut self, map: ExprId, values: &[ExprId]) -> ExprId {
         match self.pool.node(map) {
-            Node::Result => value,
-            Node::Const(_) | Node::Input(_) | Node::Select(..) => map,
+            Node::Result(component) => values.get(usize::from(component)).copied().unwrap_or(map),
+            Node::Const(_) | Node::Input(_) => map,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
-                let node = node.map(|part| self.with_result(part, value));
+                let node = node.map(|part| self.component_with_result(part, values));
                 self.pool.fold(node)
+            }
+            Node::Select(condition, then, other) => {
+                let [then, other] = [then, other].map(|part| self.component_with_result(part, values));
+                let condition = self.condition_with_result(condition, values);
+                self.pool.select(condition, then, other)
+            }
+        }
+    }
+
+    /// The conditions of a result map compare codes, which are constants.
+    fn condition_with_result(&mut self, condition: CondId, values: &[ExprId]) -> CondId {
+        let part = |me: &mut Self, condition| me.condition_with_result(condition, values);
+        match self.pool.cond(condition).clone() {
+            Cond::Const(_) | Cond::Level(..) => condition,
+            Cond::Compare(op, a, b) => {
+                let [a, b] = [a, b].map(|side| self.component_with_result(side, values));
+                self.pool.compare(op, a, b)
+            }
+            Cond::Not(a) => {
+                let a = part(self, a);
+                self.pool.not(a)
+            }
+            Cond::And(parts) => {
+                let parts: Vec<CondId> = parts.into_iter().map(|a| part(self, a)).collect();
+                self.pool.and(parts)
+            }
+            Cond::Or(parts) => {
+                let parts: Vec<CondId> = parts.into_iter().map(|a| part(self, a)).collect();
+                self.pool.or(parts)
+            }
+            Cond::If(a, b, c) => {
+                let [a, b, c] = [a, b, c].map(|a| part(self, a));
+                self.pool.cond_if(a, b, c)
             }
         }
     }

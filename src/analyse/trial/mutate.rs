@@ -246,7 +246,7 @@ impl Vocabulary {
 /// Goes through the places where a mistake can be made.
 fn each_site(table: &mut Table, kind: Mistake, vocabulary: &Vocabulary, act: &mut dyn FnMut(&mut Expr)) {
     for case in &mut table.cases {
-        let CaseBody::Rows { when, lines } = &mut case.body else { continue };
+        let CaseBody::Rows { when, lines, .. } = &mut case.body else { continue };
         each(when, true, kind, vocabulary, act);
         for line in lines {
             each(&mut line.value, false, kind, vocabulary, act);

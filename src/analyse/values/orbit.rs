@@ -4,27 +4,44 @@
 use super::point::{Outcome, Point};
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::Study;
-use crate::program::{ExprId, Node, Pool, Program};
+use crate::program::{Cond, CondId, ExprId, Node, Pool, Program};
 
 /// Most images of one point that are looked at.
 const MAX_MEMBERS: usize = 128;
 
-/// The value that a point has if it has some symmetries one after the other, and its image this value.
-fn said(program: &Program, path: &[usize], image: f64) -> Option<f64> {
-    let mut maps = path.iter().rev().filter_map(|number| program.symmetries[*number].result);
-    maps.try_fold(image, |value, map| result_at(&program.pool, map, value))
+/// The result that a point has if it has some symmetries one after the other, and its image this result.
+fn said(program: &Program, path: &[usize], image: &[f64]) -> Option<Vec<f64>> {
+    let mut maps = path.iter().rev().filter_map(|number| program.symmetries[*number].result.as_ref());
+    maps.try_fold(image.to_vec(), |values, map| {
+        map.iter().map(|component| result_at(&program.pool, *component, &values)).collect()
+    })
 }
 
-/// A result map at a value; it mentions nothing else.
-fn result_at(pool: &Pool, map: ExprId, value: f64) -> Option<f64> {
-    let at = |expr| result_at(pool, expr, value);
+/// A component of a result map at a result; it mentions nothing else.
+fn result_at(pool: &Pool, map: ExprId, values: &[f64]) -> Option<f64> {
+    let at = |expr| result_at(pool, expr, values);
     Some(match pool.node(map) {
-        Node::Result => value,
+        Node::Result(component) => *values.get(usize::from(component))?,
         Node::Const(number) => number.get(),
         Node::Unary(op, a) => op.apply(at(a)?),
         Node::Binary(op, a, b) => op.apply(at(a)?, at(b)?),
         Node::Ternary(op, a, b, c) => op.apply(at(a)?, at(b)?, at(c)?),
-        Node::Input(_) | Node::Select(..) => return None,
+        Node::Select(condition, then, other) => at(if condition_at(pool, condition, values)? { then } else { other })?,
+        Node::Input(_) => return None,
+    })
+}
+
+/// A condition of a result map at a result.
+fn condition_at(pool: &Pool, condition: CondId, values: &[f64]) -> Option<bool> {
+    let at = |condition: &CondId| condition_at(pool, *condition, values);
+    Some(match pool.cond(condition) {
+        Cond::Const(value) => *value,
+        Cond::Compare(op, a, b) => op.holds(result_at(pool, *a, values)?, result_at(pool, *b, values)?),
+        Cond::Not(a) => !at(a)?,
+        Cond::And(parts) => parts.iter().map(at).collect::<Option<Vec<_>>>()?.into_iter().all(|holds| holds),
+        Cond::Or(parts) => parts.iter().map(at).collect::<Option<Vec<_>>>()?.into_iter().any(|holds| holds),
+        Cond::If(a, b, c) => at(if at(a)? { b } else { c })?,
+        Cond::Level(..) => return None,
     })
 }
 
@@ -63,10 +80,10 @@ impl Orbit {
                 }
                 let outcome = point.outcome(program);
                 let path: Vec<usize> = from.path.iter().copied().chain([*number]).collect();
-                let says: Option<Vec<f64>> = outcome.values.iter().map(|value| said(program, &path, *value)).collect();
-                let Some(says) = says else { continue };
+                let Some(says) = said(program, &path, &outcome.values) else { continue };
                 // A point that is its own image has a say if it contradicts itself.
-                let known = |member: &Member| member.point == point && (path.len() > 1 || agree(&member.says, &says));
+                let known =
+                    |member: &Member| member.point == point && (path.len() > 1 || agree(program, &member.says, &says));
                 if members.iter().any(known) {
                     continue;
                 }
@@ -76,7 +93,7 @@ impl Orbit {
         }
         let mut camps: Vec<Vec<usize>> = Vec::new();
         for (number, member) in members.iter().enumerate() {
-            let same = |camp: &&mut Vec<usize>| agree(&members[camp[0]].says, &member.says);
+            let same = |camp: &&mut Vec<usize>| agree(program, &members[camp[0]].says, &member.says);
             match camps.iter_mut().find(same) {
                 Some(camp) => camp.push(number),
                 None => camps.push(vec![number]),
@@ -91,10 +108,14 @@ impl Orbit {
         self.camps.len() == 1
     }
 
-    /// Returns whether one camp is larger than any other and at least half of all.
+    /// Returns whether one camp is larger than any other and at least half of all, counted without
+    /// the default: nobody wrote it for these inputs.
     pub(in crate::analyse) fn has_majority(&self) -> bool {
-        let first = self.camps[0].len();
-        2 * first >= self.members.len() && self.camps.get(1).is_none_or(|second| first > second.len())
+        let written =
+            |camp: &[usize]| camp.iter().filter(|member| self.members[**member].outcome.row.is_some()).count();
+        let first = written(&self.camps[0]);
+        let others = || self.camps[1..].iter().map(|camp| written(camp));
+        first > 0 && first >= others().sum() && others().all(|other| first > other)
     }
 
     /// The nearest member that disagrees with the first, of the largest camp if that is not the first's own.
@@ -114,8 +135,14 @@ impl Orbit {
     }
 }
 
-pub(in crate::analyse) fn agree(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9)
+/// Returns whether two results mean the same.
+pub(in crate::analyse) fn agree(program: &Program, a: &[f64], b: &[f64]) -> bool {
+    let [a, b] = [a, b].map(|values| {
+        let mut values = values.to_vec();
+        program.output.sort(&mut values, &|value| Some(*value));
+        values
+    });
+    a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-9)
 }
 
 /// The value that the first point of an orbit would need to agree with one of its
@@ -130,17 +157,15 @@ pub(in crate::analyse) fn expected(study: &mut Study<'_>, member: &Member) -> Op
     let row = member.outcome.row.map(|row| &program.rows[row]);
     let line = row.zip(member.outcome.line).map(|(row, line)| &row.lines[line]);
     let values = line.map_or(&program.default, |line| &line.values);
-    values
-        .iter()
-        .map(|value| {
-            let chosen = chosen(&mut study.space.pool, *value, &member.point);
-            let parts = study.space.parts(chosen, view);
-            let (_, image) = parts.first()?;
-            let image = crate::analyse::words::bare(&study.space, *image);
-            let maps = member.path.iter().rev().filter_map(|number| program.symmetries[*number].result);
-            Some(maps.fold(image, |value, map| study.space.with_result(map, value)))
-        })
-        .collect()
+    let images = values.iter().map(|value| {
+        let chosen = chosen(&mut study.space.pool, *value, &member.point);
+        let parts = study.space.parts(chosen, view);
+        let (_, image) = parts.first()?;
+        Some(crate::analyse::words::bare(&study.space, *image))
+    });
+    let images: Vec<ExprId> = images.collect::<Option<_>>()?;
+    let maps = member.path.iter().rev().filter_map(|number| program.symmetries[*number].result.as_ref());
+    Some(maps.fold(images, |values, map| study.space.with_result(map, &values)))
 }
 
 /// A value with its selections decided at a point.
@@ -149,7 +174,7 @@ pub(in crate::analyse) fn chosen(pool: &mut Pool, value: ExprId, point: &Point) 
         return value;
     }
     match pool.node(value) {
-        Node::Const(_) | Node::Input(_) | Node::Result => value,
+        Node::Const(_) | Node::Input(_) | Node::Result(_) => value,
         node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
             let node = node.map(|part| chosen(pool, part, point));
             pool.fold(node)

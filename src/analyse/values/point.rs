@@ -93,7 +93,7 @@ impl Point {
         match pool.node(expr) {
             Node::Const(number) => number.get(),
             Node::Input(input) => self.numbers[input.index()],
-            Node::Result => f64::NAN,
+            Node::Result(_) => f64::NAN,
             Node::Unary(op, a) => op.apply(at(a)),
             Node::Binary(op, a, b) => op.apply(at(a), at(b)),
             Node::Ternary(op, a, b, c) => op.apply(at(a), at(b), at(c)),

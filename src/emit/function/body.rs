@@ -32,7 +32,7 @@ pub(in crate::emit) struct Body<'a, 'p> {
     /// The names of inputs that do not go by their own.
     pub(in crate::emit) renamed: HashMap<String, String>,
     /// The name of the result in the result map of a symmetry.
-    pub(in crate::emit) result: String,
+    pub(in crate::emit) result: Vec<String>,
 }
 
 impl<'a, 'p> Body<'a, 'p> {
@@ -55,7 +55,7 @@ impl<'a, 'p> Body<'a, 'p> {
             count: 0,
             temporaries: 0,
             renamed: HashMap::new(),
-            result: String::new(),
+            result: Vec::new(),
         }
     }
 

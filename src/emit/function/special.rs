@@ -100,15 +100,21 @@ impl Body<'_, '_> {
         let call = self.function("representative", Some(&way), (needs, false), comment, |me| me.arms(&way, 0, arms, 1));
         self.renamed.clear();
         let result = self.named(&Type::Result, &call);
-        let mut value = format!("{result}.value");
+        let mut result_value = format!("{result}.value");
+        let data = program.output.data_type();
         for (flag, index) in flags.iter().zip(&plan.symmetries).rev() {
-            if let Some(map) = program.symmetries[*index].result {
-                self.result.clone_from(&value);
-                let image = self.expr(map);
-                let back = self.dialect.select(flag, bare(&image), &value);
-                value = self.named(&Type::Data(program.output.data_type()), &back);
+            if let Some(map) = &program.symmetries[*index].result {
+                let places = data.components().into_iter().map(|of| format!("{result_value}{}", of.place));
+                self.result = places.collect();
+                let images = map.iter().zip(&self.result).map(|(component, old)| {
+                    let image = self.expr(*component);
+                    if image == *old { image } else { self.dialect.select(flag, bare(&image), old) }
+                });
+                let back = value(self.dialect, self.prefix, &data, images.collect::<Vec<_>>());
+                result_value = self.named(&Type::Data(data.clone()), &back);
             }
         }
+        let value = result_value;
         let result = self.dialect.result(self.prefix, &value, &format!("{result}.case_id"));
         self.text.line(format!("return {result};"));
     }

@@ -24,7 +24,9 @@ impl Body<'_, '_> {
                     _ => (", no line applies, so the default".to_owned(), program.line(row.span)),
                 };
                 let section = if row.section.is_empty() { String::new() } else { format!("section {}; ", row.section) };
-                self.text.comment(&format!("case {}{number}: {} ({section}{file}:{place})", row.id, row.doc));
+                let under =
+                    if row.under.is_empty() { String::new() } else { format!(" under {}", row.under.join(", ")) };
+                self.text.comment(&format!("case {}{under}{number}: {} ({section}{file}:{place})", row.id, row.doc));
                 self.dialect.uint(row.id)
             }
         };
@@ -106,7 +108,7 @@ impl Body<'_, '_> {
                 self.renamed.get(ident).unwrap_or(ident).clone()
             }
             // In the result map of a symmetry.
-            Node::Result => self.result.clone(),
+            Node::Result(component) => self.result.get(usize::from(component)).cloned().unwrap_or_default(),
             Node::Unary(op, a) => self.dialect.unary(self.prefix, op, &of(a)),
             Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
             Node::Ternary(op, a, b, c) => self.dialect.ternary(self.prefix, op, &of(a), &of(b), &of(c)),
@@ -128,7 +130,7 @@ impl Body<'_, '_> {
                 self.dialect.select(bare(&condition), &self.whole(a, literal), &self.whole(b, literal))
             }
             Node::Const(number) => literal(self, number.get()),
-            Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+            Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
                 literal(self, 0.0)
             }
         }
@@ -143,9 +145,12 @@ impl Body<'_, '_> {
                 (Some(false), Some(true)) => format!("!({})", bare(&self.condition(c))),
                 _ => self.dialect.select(bare(&self.condition(c)), &self.truth(a), &self.truth(b)),
             },
-            Node::Const(_) | Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
-                known(expr).unwrap_or_default().to_string()
-            }
+            Node::Const(_)
+            | Node::Input(_)
+            | Node::Result(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..) => known(expr).unwrap_or_default().to_string(),
         }
     }
 

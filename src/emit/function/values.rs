@@ -96,7 +96,7 @@ impl Body<'_, '_> {
         let depth = 1 + node.children().filter_map(|c| depths.get(&c)).max().copied().unwrap_or(0);
         depths.insert(expr, depth);
         let label = pool.label(expr);
-        let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Result);
+        let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Result(_));
         if trivial || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
             return;
         }
@@ -180,7 +180,7 @@ impl Body<'_, '_> {
             },
             node @ (Node::Const(_)
             | Node::Input(_)
-            | Node::Result
+            | Node::Result(_)
             | Node::Unary(..)
             | Node::Binary(..)
             | Node::Ternary(..)) => node.children().collect(),
@@ -273,7 +273,7 @@ fn is_safe(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, bool>) -> bool
 /// Returns whether an operation is cheap and has a finite result for all finite operands that are not huge.
 fn cannot_fail(node: Node) -> bool {
     match node {
-        Node::Const(_) | Node::Input(_) | Node::Result | Node::Ternary(..) | Node::Select(..) => true,
+        Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Ternary(..) | Node::Select(..) => true,
         Node::Unary(op, _) => op.row().is_plain,
         Node::Binary(op, ..) => op.row().is_plain,
     }

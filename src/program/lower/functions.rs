@@ -272,10 +272,10 @@ impl<'t> Lowering<'t> {
         expected: Expected,
     ) -> Result<(crate::program::CondId, Vec<super::rows::LoweredLine>)> {
         match &case.body {
-            CaseBody::Rows { when, lines } => Ok((self.condition(when, env)?, self.lines(lines, env, expected)?)),
-            CaseBody::Image { under, .. } => {
+            CaseBody::Rows { when, lines, .. } => Ok((self.condition(when, env)?, self.lines(lines, env, expected)?)),
+            CaseBody::Image { span, .. } => {
                 let message = "a case of a function is written out";
-                Err(Diagnostic::error(codes::CASE_SHAPE, message).at(under.span, "functions have no symmetries"))
+                Err(Diagnostic::error(codes::CASE_SHAPE, message).at(*span, "functions have no symmetries"))
             }
         }
     }

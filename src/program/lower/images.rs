@@ -5,11 +5,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::scope::Env;
-use super::terms::{Term, type_error};
+use super::terms::Term;
 use super::{Lowering, Result};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::{self, Continuity, ExprId, InputId, LevelTerm, Symmetry};
-use crate::table::expr::Expr;
 use crate::table::{self, ContinuityKind, Image, names};
 
 /// The images of discrete and of continuous inputs.
@@ -76,15 +75,8 @@ impl<'t> Lowering<'t> {
 
     pub(super) fn symmetry(&mut self, symmetry: &'t table::Symmetry) -> Result<Symmetry> {
         names::check_inner(&symmetry.name.value, "a symmetry", symmetry.name.span)?;
-        let env = Env::default();
         let (levels, numbers) = self.mapped_inputs(&symmetry.map, symmetry.name.span)?;
-        let result = match &symmetry.result {
-            None => None,
-            Some(expr) => {
-                let placeholder = self.pool.result();
-                Some(self.numeric(expr, &env.with_local(&value_name(expr), Term::Number(placeholder)))?)
-            }
-        };
+        let result = symmetry.result.as_ref().map(|map| self.result_map(map)).transpose()?;
         let (name, doc) = (symmetry.name.value.clone(), symmetry.doc.clone());
         Ok(Symmetry { name, doc, levels, numbers, result, span: symmetry.name.span })
     }
@@ -146,25 +138,10 @@ impl<'t> Lowering<'t> {
         Ok((levels, numbers))
     }
 
-    /// Applies the result map of a symmetry.
-    pub(super) fn apply_result(&mut self, map: &Expr, value: Term, env: &Env) -> Result<Term> {
-        match value {
-            Term::Number(_) => Ok(Term::Number(self.numeric(map, &env.with_local(&value_name(map), value))?)),
-            other @ (Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
-                Err(type_error(map.span, &self.describe(&other), "only a single number can be mapped"))
-            }
-        }
-    }
-
     /// An environment in which inputs mean their images under a symmetry.
     pub(super) fn mapped_env(&self, images: HashMap<InputId, Term>, env: &Env) -> Env {
         let mut overrides = (*env.overrides).clone();
         overrides.extend(images);
         Env { overrides: Arc::new(overrides), names: Rc::default(), ..env.clone() }
     }
-}
-
-/// The name that `result` gives to the value that it maps.
-fn value_name(map: &Expr) -> Spanned<String> {
-    Spanned::new(map.span, "value".to_owned())
 }

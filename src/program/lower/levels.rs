@@ -123,8 +123,7 @@ impl Lowering<'_> {
     /// Returns whether an expression consists of names that mean nothing by themselves, as those of levels do.
     fn is_bare(&self, expr: &Expr, env: &Env) -> bool {
         if let Some(name) = expr.name() {
-            let base = name.rsplit_once('.').map_or(name, |(base, _)| base);
-            return !(matches!(name, "true" | "false") || self.is_defined(name, env) || self.is_defined(base, env));
+            return !(matches!(name, "true" | "false") || self.has_meaning(name, env));
         }
         let sides: Vec<&Expr> = if let ExprKind::If(_, a, b) = &expr.kind {
             vec![a, b]
@@ -162,7 +161,7 @@ impl Lowering<'_> {
         let word = match (expr.name(), expr.literal()) {
             (Some(name), _) => {
                 let is_level = self.sets[set.0].names.iter().any(|level| level == name);
-                if !is_level && self.is_defined(name, env) {
+                if !is_level && self.has_meaning(name, env) {
                     return Ok(None);
                 }
                 name.to_owned()

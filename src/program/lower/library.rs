@@ -152,6 +152,7 @@ impl<'t> Lowering<'t> {
                     span: value.span,
                     guard: always,
                     guard_span: function.name.span,
+                    under: Vec::new(),
                     lines: vec![Line {
                         condition: always,
                         condition_span: None,
@@ -195,6 +196,7 @@ impl<'t> Lowering<'t> {
                         span: case.span,
                         guard,
                         guard_span: case.span,
+                        under: Vec::new(),
                         lines,
                         section: case.section.clone(),
                         doc: case.doc.clone(),

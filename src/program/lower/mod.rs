@@ -12,7 +12,9 @@ mod images;
 mod levels;
 mod library;
 mod memo;
+mod orbit;
 mod output;
+mod results;
 mod rows;
 mod scope;
 mod terms;
@@ -176,10 +178,11 @@ impl<'t> Lowering<'t> {
             }
         }
         let mut rows = Vec::new();
+        // Where the rows of each case begin.
+        let mut begins = Vec::new();
         for case in &table.cases {
-            if let Some(row) = keep(self.row(case), errors) {
-                rows.push(row);
-            }
+            begins.push(rows.len());
+            rows.extend(keep(self.rows(case), errors).unwrap_or_default());
         }
         let env = Env::default();
         let default = keep(self.default_term(&env).and_then(|t| self.result(t, table.default.span)), errors);
@@ -194,7 +197,7 @@ impl<'t> Lowering<'t> {
         let symmetries = table.symmetries.iter().filter_map(|s| keep(self.symmetry(s), errors)).collect();
         let continuity = table.continuity.iter().filter_map(|c| keep(self.continuity(c), errors)).collect();
         let mut examples = Vec::new();
-        for (row, case) in table.cases.iter().enumerate() {
+        for (row, case) in begins.into_iter().zip(&table.cases) {
             for example in &case.examples {
                 examples.extend(keep(self.example(row, example), errors));
             }

@@ -184,7 +184,7 @@ impl Lowering<'_> {
                 Node::Select(_, then, other) => open.extend([then, other]),
                 Node::Const(_)
                 | Node::Input(_)
-                | Node::Result
+                | Node::Result(_)
                 | Node::Unary(..)
                 | Node::Binary(..)
                 | Node::Ternary(..) => {

@@ -15,7 +15,7 @@ use crate::program::domain::Domain;
 use crate::program::pool::{CondId, ExprId};
 use crate::program::{InputId, LevelTerm, Line, Row};
 use crate::table::expr::Expr;
-use crate::table::{self, Case, CaseBody};
+use crate::table::{self, Case, CaseBody, ResultMap};
 use crate::text::closest::nearest;
 
 /// A line of a row, its value not yet tied to the output.
@@ -29,16 +29,26 @@ pub(super) struct LoweredLine {
 impl<'t> Lowering<'t> {
     pub(super) fn row(&mut self, case: &'t Case) -> Result<Row> {
         let env = Env::of_case(case.id.value);
-        let (guard, lines, result) = self.row_parts(&case.id, &env)?;
+        let (guard, lines, maps) = self.row_parts(&case.id, &env)?;
+        self.row_of(case, guard, lines, &maps, &env, Vec::new())
+    }
+
+    /// A row, its results mapped and tied to the output.
+    pub(super) fn row_of(
+        &mut self,
+        case: &'t Case,
+        guard: CondId,
+        lines: Vec<LoweredLine>,
+        maps: &[ResultMap],
+        env: &Env,
+        under: Vec<String>,
+    ) -> Result<Row> {
         let guard_span = match &case.body {
             CaseBody::Rows { when, .. } => when.span,
-            CaseBody::Image { under, .. } => under.span,
+            CaseBody::Image { span, .. } => *span,
         };
         let lines = lines.into_iter().map(|line| {
-            let value = match &result {
-                Some(map) => self.apply_result(map, line.value, &env)?,
-                None => line.value,
-            };
+            let value = self.apply_results(maps, line.value, line.span, env)?;
             let values = self.result(value, line.span)?;
             let (condition, condition_span) = (line.condition, line.condition_span);
             Ok(Line { condition, condition_span, values, span: line.span })
@@ -49,6 +59,7 @@ impl<'t> Lowering<'t> {
             span: case.span,
             guard,
             guard_span,
+            under,
             lines,
             section: case.section.clone(),
             doc: case.doc.clone(),
@@ -57,43 +68,80 @@ impl<'t> Lowering<'t> {
         })
     }
 
-    /// Guard and lines of a case in an environment, and the map that its results still need.
+    /// Applies the result maps of symmetries, one after the other.
+    fn apply_results(&mut self, maps: &[ResultMap], value: Term, span: Span, env: &Env) -> Result<Term> {
+        maps.iter().try_fold(value, |value, map| self.apply_result(map, value, span, env))
+    }
+
+    /// Guard and lines of a case in an environment, and the maps that its results still need, in order.
     pub(super) fn row_parts(
         &mut self,
         id: &Spanned<u32>,
         env: &Env,
-    ) -> Result<(CondId, Vec<LoweredLine>, Option<Expr>)> {
+    ) -> Result<(CondId, Vec<LoweredLine>, Vec<ResultMap>)> {
         let case = self.find_case(id)?;
         match &case.body {
-            CaseBody::Rows { when, lines } => {
+            CaseBody::Rows { when, lines, .. } => {
                 let expected = self.expected_output();
-                Ok((self.condition(when, env)?, self.lines(lines, env, expected)?, None))
+                Ok((self.condition(when, env)?, self.lines(lines, env, expected)?, Vec::new()))
             }
-            CaseBody::Image { case: base, under } => {
+            CaseBody::Image { case: base, under, .. } => {
+                if let [_, second, ..] = under.as_slice() {
+                    self.table.since(2, second.span, "an image under several symmetries")?;
+                }
                 let base_case = self.find_case(base)?;
-                let CaseBody::Rows { when, lines } = &base_case.body else {
-                    let message = format!("case {} is itself an image", base.value);
-                    return Err(Diagnostic::error(codes::REFERENCE_DEPTH, message)
-                        .at(base.span, "an image is taken of a case that is written out")
-                        .help("name the case that has a guard and a value"));
-                };
-                let table = self.table;
-                let Some(symmetry) = table.symmetries.iter().find(|s| s.name.value == under.value) else {
-                    let known = table.symmetries.iter().map(|s| s.name.value.as_str());
-                    let error =
-                        Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no symmetry `{}`", under.value))
-                            .at(under.span, "not under `symmetries`");
-                    return Err(match nearest(&under.value, known) {
-                        Some(close) => error.help(format!("did you mean `{close}`?")),
-                        None => error,
-                    });
-                };
-                let images = self.images(&symmetry.map, env)?;
-                let inner = self.mapped_env(images, env);
-                let expected = self.expected_output();
-                Ok((self.condition(when, &inner)?, self.lines(lines, &inner, expected)?, symmetry.result.clone()))
+                if matches!(base_case.body, CaseBody::Image { .. }) {
+                    self.check_image_of_image(case, base)?;
+                }
+                // The last symmetry is the outermost: what it maps is the image under those before.
+                let (mut inner, mut maps) = (env.clone(), Vec::new());
+                for name in under.iter().rev() {
+                    let symmetry = self.find_symmetry(name)?;
+                    let images = self.images(&symmetry.map, &inner)?;
+                    inner = self.mapped_env(images, &inner);
+                    maps.splice(0..0, symmetry.result.clone());
+                }
+                let (guard, lines, mut before) = self.row_parts(base, &inner)?;
+                before.extend(maps);
+                Ok((guard, lines, before))
             }
         }
+    }
+
+    /// Follows images of images: version 1 of the language has none, and no version lets them lead in a circle.
+    fn check_image_of_image(&self, case: &Case, base: &Spanned<u32>) -> Result<()> {
+        if self.table.language.value < 2 {
+            let message = format!("case {} is itself an image", base.value);
+            return Err(Diagnostic::error(codes::REFERENCE_DEPTH, message)
+                .at(base.span, "an image is taken of a case that is written out")
+                .help("name the case that has a guard and a value, or write `language: 2`"));
+        }
+        let (mut chain, mut next) = (vec![case.id.value], base);
+        while let CaseBody::Image { case: further, .. } = &self.find_case(next)?.body {
+            chain.push(next.value);
+            if chain.iter().filter(|id| **id == next.value).count() > 1 {
+                let chain = chain.iter().map(u32::to_string).collect::<Vec<_>>().join(" -> ");
+                return Err(Diagnostic::error(codes::CIRCULAR_CASE, format!("case {} is its own image", next.value))
+                    .at(next.span, format!("closes the circle {chain}"))
+                    .help("write out the guard and the value of one of these cases"));
+            }
+            next = further;
+        }
+        Ok(())
+    }
+
+    /// The symmetry with a name.
+    pub(super) fn find_symmetry(&self, name: &Spanned<String>) -> Result<&'t table::Symmetry> {
+        let table = self.table;
+        table.symmetries.iter().find(|symmetry| symmetry.name.value == name.value).ok_or_else(|| {
+            let known = table.symmetries.iter().map(|symmetry| symmetry.name.value.as_str());
+            let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no symmetry `{}`", name.value))
+                .at(name.span, "not under `symmetries`");
+            match nearest(&name.value, known) {
+                Some(close) => error.help(format!("did you mean `{close}`?")),
+                None => error,
+            }
+        })
     }
 
     pub(super) fn find_case(&self, id: &Spanned<u32>) -> Result<&'t Case> {
@@ -155,15 +203,12 @@ impl<'t> Lowering<'t> {
         let mut inner =
             Env { overrides: Arc::new(overrides), cases: env.cases.clone(), referenced: true, ..Env::default() };
         inner.cases.push(id.value);
-        let (_, lines, result) = self.row_parts(id, &inner)?;
+        let (_, lines, maps) = self.row_parts(id, &inner)?;
         // The default applies where no line does; the guard is not part of the value.
         let mut term = self.default_term(&inner)?;
         for line in lines.iter().rev() {
             let span = line.span;
-            let value = match &result {
-                Some(map) => self.apply_result(map, line.value.clone(), &inner)?,
-                None => line.value.clone(),
-            };
+            let value = self.apply_results(&maps, line.value.clone(), span, &inner)?;
             term = match self.pool.truth(line.condition) {
                 Some(true) => value,
                 _ => self.choose(line.condition, value, term, span)?,

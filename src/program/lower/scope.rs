@@ -60,18 +60,18 @@ impl Lowering<'_> {
         if let Some(term) = self.resolve(name, env)? {
             return Ok(term);
         }
+        // `v.xy`, `r.at.x`: parts of something that has a name, the longest that means something.
+        for (dot, _) in name.rmatch_indices('.') {
+            if let Some(term) = self.resolve(&name[..dot], env)? {
+                return name[dot + 1..].split('.').try_fold(term, |term, part| self.swizzle(term, part, span));
+            }
+        }
         // A level, where one is expected.
         if let Expected::Level(set) = expected {
             return match self.sets[set.0].find(name) {
                 Some(level) => Ok(self.level_of(set, LevelTerm::Const(level))),
                 None => Err(self.unknown_level(set, name, span)),
             };
-        }
-        // `v.xy`: components of something that has a name.
-        if let Some((base, letters)) = name.rsplit_once('.')
-            && let Some(term) = self.resolve(base, env)?
-        {
-            return self.swizzle(term, letters, span);
         }
         Err(self.unknown_name(name, span, env))
     }
@@ -141,6 +141,11 @@ impl Lowering<'_> {
             || env.locals.iter().any(|(local, _)| local.value == name)
             || self.scopes[env.scope].names.iter().any(|named| named.name.value == name)
             || self.scopes[env.scope].constants.iter().any(|constant| constant.name.value == name)
+    }
+
+    /// Returns whether a name stands for something, or for a part of something.
+    pub(super) fn has_meaning(&self, name: &str, env: &Env) -> bool {
+        self.is_defined(name, env) || name.match_indices('.').any(|(dot, _)| self.is_defined(&name[..dot], env))
     }
 
     pub(super) fn input_named(&self, name: &str) -> Option<InputId> {

@@ -190,7 +190,7 @@ impl Lowering<'_> {
             ExprKind::Record(fields) => self.record(fields, span, env, &expected),
             ExprKind::List(items) => {
                 if let Expected::Result(output) = &expected
-                    && let Output::List { of, max } = &**output
+                    && let Output::List { of, max, .. } = &**output
                 {
                     return self.list(items, of, *max, span, env);
                 }

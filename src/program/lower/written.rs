@@ -5,14 +5,14 @@ use std::collections::HashSet;
 use crate::diag::Spanned;
 use crate::program::Written;
 use crate::table::expr::{Expr, ExprKind, SumOver};
-use crate::table::{CaseBody, FunctionBody, Image, Table};
+use crate::table::{CaseBody, FunctionBody, Image, ResultMap, Table};
 
 /// Looks at all that is written in a table of cases.
 pub(super) fn written(table: &Table) -> Written {
     let (unused_names, unused_helpers) = (unused_names(table), unused_helpers(table));
     let mut written = Written { unused_names, unused_helpers, ..Written::default() };
     for case in &table.cases {
-        if let CaseBody::Rows { when, lines } = &case.body {
+        if let CaseBody::Rows { when, lines, .. } = &case.body {
             inexact(when, &mut written);
             for line in lines {
                 inexact(&line.value, &mut written);
@@ -47,7 +47,7 @@ fn unused_names(table: &Table) -> Vec<Spanned<String>> {
     }
     let mut mentioned = HashSet::new();
     for case in &table.cases {
-        if let CaseBody::Rows { when, lines } = &case.body {
+        if let CaseBody::Rows { when, lines, .. } = &case.body {
             mentions(when, &mut mentioned);
             for line in lines {
                 mentions(&line.value, &mut mentioned);
@@ -58,7 +58,7 @@ fn unused_names(table: &Table) -> Vec<Spanned<String>> {
     mentions(&table.default, &mut mentioned);
     table.assumptions.iter().for_each(|a| mentions(&a.condition, &mut mentioned));
     for symmetry in &table.symmetries {
-        symmetry.result.iter().for_each(|r| mentions(r, &mut mentioned));
+        symmetry.result.iter().flat_map(ResultMap::exprs).for_each(|r| mentions(r, &mut mentioned));
         for (_, image) in &symmetry.map {
             if let Image::Expr(expr) = image {
                 mentions(expr, &mut mentioned);
@@ -87,9 +87,9 @@ fn unused_helpers(table: &Table) -> Vec<Spanned<String>> {
     let mut open: Vec<&Expr> = vec![&table.default];
     open.extend(table.names.iter().map(|named| &named.value));
     open.extend(table.assumptions.iter().map(|assumption| &assumption.condition));
-    open.extend(table.symmetries.iter().filter_map(|symmetry| symmetry.result.as_ref()));
+    open.extend(table.symmetries.iter().filter_map(|symmetry| symmetry.result.as_ref()).flat_map(ResultMap::exprs));
     let case = |case: &'_ crate::table::Case| -> Vec<Expr> {
-        let CaseBody::Rows { when, lines } = &case.body else { return Vec::new() };
+        let CaseBody::Rows { when, lines, .. } = &case.body else { return Vec::new() };
         let lines = lines.iter().flat_map(|line| [Some(&line.value), line.condition.as_ref()]).flatten();
         std::iter::once(when).chain(lines).cloned().collect()
     };

@@ -86,7 +86,7 @@ fn quotients(pool: &Pool, expr: ExprId, factor: f64, divisor: Option<ExprId>, ou
         },
         Node::Const(_)
         | Node::Input(_)
-        | Node::Result
+        | Node::Result(_)
         | Node::Unary(..)
         | Node::Binary(..)
         | Node::Ternary(..)

@@ -110,7 +110,7 @@ impl<'p, T: Real> Trace<'p, T> {
             Node::Const(number) => T::from_f64(number.get()),
             Node::Input(input) => self.input(input),
             // Occurs in the result map of a symmetry only.
-            Node::Result => T::from_f64(f64::NAN),
+            Node::Result(_) => T::from_f64(f64::NAN),
             Node::Unary(op, a) => T::unary(op, self.number(a)),
             Node::Binary(op, a, b) => {
                 let (a, b) = (self.number(a), self.number(b));

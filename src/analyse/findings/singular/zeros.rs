@@ -51,17 +51,20 @@ fn collect(program: &Program, normaliser: &mut Normaliser, expr: ExprId, all: &m
             collect(program, normaliser, a, all);
             collect(program, normaliser, b, all);
         }
-        Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) | Node::Select(..) => {
-            match affine(program, normaliser, expr) {
-                Some((terms, constant)) => match terms.as_slice() {
-                    [] if constant == 0.0 => add(Zero::Everywhere),
-                    [] => {}
-                    [(input, factor)] => add(Zero::Fixed(*input, 0.0 - constant / factor)),
-                    _ => add(Zero::Plane { factor: expr, terms, constant }),
-                },
-                None => add(Zero::Somewhere(expr)),
-            }
-        }
+        Node::Input(_)
+        | Node::Result(_)
+        | Node::Unary(..)
+        | Node::Binary(..)
+        | Node::Ternary(..)
+        | Node::Select(..) => match affine(program, normaliser, expr) {
+            Some((terms, constant)) => match terms.as_slice() {
+                [] if constant == 0.0 => add(Zero::Everywhere),
+                [] => {}
+                [(input, factor)] => add(Zero::Fixed(*input, 0.0 - constant / factor)),
+                _ => add(Zero::Plane { factor: expr, terms, constant }),
+            },
+            None => add(Zero::Somewhere(expr)),
+        },
     }
 }
 
