@@ -133,10 +133,9 @@ impl Lowering<'_> {
                 let count = self.sets[set.0].count() as i64;
                 let table = self.tabulated(0..=count - 1, &whole, expr, env, |me, env| {
                     match me.term(expr, env, Expected::Level(*set))? {
-                        Term::Level(found, term) if found == *set => match &*term {
-                            LevelTerm::Const(level) => Ok(i64::from(*level)),
-                            LevelTerm::Input(_) | LevelTerm::If(..) | LevelTerm::Map(..) => Err(depends(expr)),
-                        },
+                        Term::Level(found, term) if found == *set => {
+                            me.fixed_level(&term).map(i64::from).ok_or_else(|| depends(expr))
+                        }
                         other => Err(type_error(expr.span, &me.describe(&other), "expected a level of the output")),
                     }
                 })?;
@@ -169,6 +168,18 @@ impl Lowering<'_> {
             (Output::Record(_), ResultMap::Expr(expr)) => {
                 Err(Diagnostic::error(codes::SYMMETRY, "a record is mapped field by field").at(expr.span, "here"))
             }
+        }
+    }
+
+    /// The level that a term is, if it depends on nothing.
+    fn fixed_level(&self, term: &LevelTerm) -> Option<u8> {
+        match term {
+            LevelTerm::Const(level) => Some(*level),
+            LevelTerm::Input(_) => None,
+            LevelTerm::If(condition, then, other) => {
+                self.fixed_level(if self.pool.truth(*condition)? { then } else { other })
+            }
+            LevelTerm::Map(inner, map) => map.get(usize::from(self.fixed_level(inner)?)).copied(),
         }
     }
 
@@ -273,7 +284,7 @@ impl Lowering<'_> {
             Output::Vector(..) => Term::Vector(components.to_vec()),
             Output::Bool => Term::Bool(self.is_more(components[0], 0.0, &mut HashMap::new())),
             Output::Enumeration(set) => {
-                let level = self.level_of(*set, components[0], &mut HashMap::new());
+                let level = self.level_with_index(*set, components[0], &mut HashMap::new());
                 Term::Level(*set, level)
             }
             Output::List { .. } => Term::List(components.to_vec()),
@@ -290,26 +301,32 @@ impl Lowering<'_> {
     }
 
     /// The level that has an index.
-    fn level_of(&mut self, set: SetId, index: ExprId, known: &mut HashMap<ExprId, Arc<LevelTerm>>) -> Arc<LevelTerm> {
+    fn level_with_index(
+        &mut self,
+        set: SetId,
+        index: ExprId,
+        known: &mut HashMap<ExprId, Arc<LevelTerm>>,
+    ) -> Arc<LevelTerm> {
         if let Some(done) = known.get(&index) {
             return done.clone();
         }
         let level = match self.pool.node(index) {
             Node::Const(number) => LevelTerm::Const(number.get() as u8),
             Node::Select(condition, then, other) => {
-                let [then, other] = [then, other].map(|part| self.level_of(set, part, known));
+                let [then, other] = [then, other].map(|part| self.level_with_index(set, part, known));
                 LevelTerm::If(condition, then, other)
             }
             Node::Result(_) | Node::Input(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
                 let last = self.sets[set.0].count() as u8 - 1;
                 (0..last).rev().fold(LevelTerm::Const(last), |rest, level| {
+                    let [own, rest] = [LevelTerm::Const(level), rest].map(|term| self.memo.level(term));
                     let number = self.pool.number(f64::from(level));
                     let is_level = self.pool.compare(Comparison::Equal, index, number);
-                    LevelTerm::If(is_level, Arc::new(LevelTerm::Const(level)), Arc::new(rest))
+                    LevelTerm::If(is_level, own, rest)
                 })
             }
         };
-        let level = Arc::new(level);
+        let level = self.memo.level(level);
         known.insert(index, level.clone());
         level
     }
