@@ -6,7 +6,7 @@
 //! and multiplies as it must gets the same bits; a proof may speak of either, and its words hold of both.
 //! A shader's square root or sine may be off in the last place: such operations are left to it.
 
-use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
+use super::operators::{BinaryAlgebra, Image, TernaryAlgebra, UnaryAlgebra};
 use super::{BinaryOp, ExprId, Node, Pool, Real, TernaryOp, UnaryOp};
 
 /// Products below this may have lost digits, so that their error cannot be computed.
@@ -54,37 +54,11 @@ impl Pool {
 
 /// The result of an operation on one number, if it is exact.
 fn exact_unary(op: UnaryOp, a: f64) -> Option<f64> {
-    let exact = match op {
-        UnaryOp::Ceil | UnaryOp::Floor | UnaryOp::Round | UnaryOp::Sign | UnaryOp::Trunc => true,
-        UnaryOp::Negate
-        | UnaryOp::Abs
-        | UnaryOp::Acos
-        | UnaryOp::Acosh
-        | UnaryOp::Asin
-        | UnaryOp::Asinh
-        | UnaryOp::Atan
-        | UnaryOp::Atanh
-        | UnaryOp::Cos
-        | UnaryOp::Cosh
-        | UnaryOp::Degrees
-        | UnaryOp::Exp
-        | UnaryOp::Exp2
-        | UnaryOp::Fract
-        | UnaryOp::InverseSqrt
-        | UnaryOp::Log
-        | UnaryOp::Log2
-        | UnaryOp::PortableCos
-        | UnaryOp::PortableSin
-        | UnaryOp::Radians
-        | UnaryOp::Saturate
-        | UnaryOp::Sin
-        | UnaryOp::Sinh
-        | UnaryOp::Sqrt
-        | UnaryOp::Tan
-        | UnaryOp::Tanh => match op.row().algebra {
-            UnaryAlgebra::Negate | UnaryAlgebra::Absolute | UnaryAlgebra::Saturate => true,
-            UnaryAlgebra::Opaque => false,
-        },
+    let row = op.row();
+    let exact = match row.algebra {
+        UnaryAlgebra::Negate | UnaryAlgebra::Absolute | UnaryAlgebra::Saturate => true,
+        // Steps are whole numbers.
+        UnaryAlgebra::Opaque => row.image == Image::Steps,
     };
     exact.then(|| op.apply(a))
 }

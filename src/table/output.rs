@@ -131,6 +131,11 @@ impl<Set> Output<Set> {
         }
     }
 
+    /// The fields of a record; none of anything else.
+    pub(crate) fn fields(&self) -> &[(String, Output<Set>)] {
+        if let Output::Record(fields) = self { fields } else { &[] }
+    }
+
     /// Returns whether a list occurs in it.
     pub(crate) fn has_list(&self) -> bool {
         match self {

@@ -400,15 +400,7 @@ impl<'t> Lowering<'t> {
             return Err(Diagnostic::error(codes::TYPE, message).at(span, format!("at most {MAX_FIELDS}")));
         }
         let declared: &[(String, Output<SetId>)] = match expected {
-            Expected::Result(output) => match &**output {
-                Output::Record(fields) => fields,
-                Output::Number(_)
-                | Output::Vector(..)
-                | Output::Bool
-                | Output::Int(..)
-                | Output::Enumeration(_)
-                | Output::List { .. } => &[],
-            },
+            Expected::Result(output) => output.fields(),
             Expected::Anything | Expected::Level(_) => &[],
         };
         let mut parts: Vec<(String, Term)> = Vec::new();

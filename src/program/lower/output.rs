@@ -1,6 +1,6 @@
 //! The output: its level sets found, its kind inferred for a function, and values tied to it.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::convert::Infallible;
 use std::rc::Rc;
 
@@ -19,6 +19,17 @@ use crate::table::expr::Expr;
 pub(super) struct Part {
     pub(super) value: ExprId,
     pub(super) clamp: Option<(f64, f64)>,
+}
+
+impl Expected {
+    /// The expectation of a value that is to be tied to an output.
+    pub(super) fn of(output: &Output<SetId>) -> Self {
+        match output {
+            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) => Expected::Anything,
+            Output::Enumeration(of) => Expected::Level(*of),
+            Output::Record(_) | Output::List { .. } => Expected::Result(Rc::new(output.clone())),
+        }
+    }
 }
 
 impl Lowering<'_> {
@@ -238,5 +249,28 @@ impl Lowering<'_> {
         let zero = self.pool.number(0.0);
         parts.resize(1 + max * of.size(), zero);
         Ok(Term::List(parts))
+    }
+
+    /// The value that consists of some components.
+    pub(super) fn term_of(&mut self, output: &Output<SetId>, components: &[ExprId]) -> Term {
+        match output {
+            Output::Number(_) | Output::Int(..) => Term::Number(components[0]),
+            Output::Vector(..) => Term::Vector(components.to_vec()),
+            Output::Bool => Term::Bool(self.is_more(components[0], 0.0, &mut HashMap::new())),
+            Output::Enumeration(set) => {
+                let level = self.level_with_index(*set, components[0], &mut HashMap::new());
+                Term::Level(*set, level)
+            }
+            Output::List { .. } => Term::List(components.to_vec()),
+            Output::Record(fields) => {
+                let mut rest = components;
+                let part = |(name, of): &(String, Output<SetId>)| {
+                    let (own, others) = rest.split_at(of.size());
+                    rest = others;
+                    (name.clone(), self.term_of(of, own))
+                };
+                Term::Record(fields.iter().map(part).collect())
+            }
+        }
     }
 }

@@ -58,14 +58,8 @@ impl Lowering<'_> {
         components: &[ExprId],
         env: &Env,
     ) -> Result<Vec<ExprId>> {
-        let later = match output {
-            Output::Number(_) => None,
-            Output::Vector(..) => Some("a map of a vector"),
-            Output::Bool | Output::Int(..) | Output::Record(_) => Some("a map of such a result"),
-            Output::Enumeration(_) | Output::List { .. } => Some("a map of levels in the result"),
-        };
-        if let Some(what) = later {
-            self.table.since(2, map.span(), what)?;
+        if !matches!(output, Output::Number(_)) {
+            self.table.since(2, map.span(), "a map of a result that is no number")?;
         }
         let (fields, parts) = match (output, map) {
             (Output::Record(fields), ResultMap::Parts(_, parts)) => (fields, parts),
@@ -101,13 +95,6 @@ impl Lowering<'_> {
     fn part(&mut self, of: &Output<SetId>, map: &ResultMap, whole: Whole<'_>, env: &Env) -> Result<Vec<ExprId>> {
         let own = &whole.components[whole.at..whole.at + of.size()];
         match (of, map) {
-            (Output::Number(_) | Output::Vector(..) | Output::Bool, ResultMap::Expr(expr)) => {
-                let value = self.term_of(whole.output, whole.components);
-                let term = self.term(expr, &with_value(expr, value, env), Expected::Anything)?;
-                let mut parts = Vec::new();
-                self.tie(of, term, expr.span, "the mapped result", &mut parts)?;
-                Ok(parts.into_iter().map(|part| part.value).collect())
-            }
             (Output::Int(from, to), ResultMap::Expr(expr)) => {
                 let (from, to) = (i64::from(*from), i64::from(*to));
                 if to - from >= MAX_TABULATED {
@@ -165,8 +152,12 @@ impl Lowering<'_> {
                     .at(*span, "a map of levels")
                     .help("write an expression in `value`"))
             }
-            (Output::Record(_), ResultMap::Expr(expr)) => {
-                Err(Diagnostic::error(codes::SYMMETRY, "a record is mapped field by field").at(expr.span, "here"))
+            (_, ResultMap::Expr(expr)) => {
+                let value = self.term_of(whole.output, whole.components);
+                let term = self.term(expr, &with_value(expr, value, env), Expected::Anything)?;
+                let mut parts = Vec::new();
+                self.tie(of, term, expr.span, "the mapped result", &mut parts)?;
+                Ok(parts.into_iter().map(|part| part.value).collect())
             }
         }
     }
@@ -254,7 +245,7 @@ impl Lowering<'_> {
     }
 
     /// The condition that a whole number is more than another. Choices stay choices.
-    fn is_more(&mut self, expr: ExprId, than: f64, known: &mut HashMap<ExprId, CondId>) -> CondId {
+    pub(super) fn is_more(&mut self, expr: ExprId, than: f64, known: &mut HashMap<ExprId, CondId>) -> CondId {
         if let Some(done) = known.get(&expr) {
             return *done;
         }
@@ -277,31 +268,8 @@ impl Lowering<'_> {
         condition
     }
 
-    /// The value that consists of some components.
-    fn term_of(&mut self, output: &Output<SetId>, components: &[ExprId]) -> Term {
-        match output {
-            Output::Number(_) | Output::Int(..) => Term::Number(components[0]),
-            Output::Vector(..) => Term::Vector(components.to_vec()),
-            Output::Bool => Term::Bool(self.is_more(components[0], 0.0, &mut HashMap::new())),
-            Output::Enumeration(set) => {
-                let level = self.level_with_index(*set, components[0], &mut HashMap::new());
-                Term::Level(*set, level)
-            }
-            Output::List { .. } => Term::List(components.to_vec()),
-            Output::Record(fields) => {
-                let mut rest = components;
-                let part = |(name, of): &(String, Output<SetId>)| {
-                    let (own, others) = rest.split_at(of.size());
-                    rest = others;
-                    (name.clone(), self.term_of(of, own))
-                };
-                Term::Record(fields.iter().map(part).collect())
-            }
-        }
-    }
-
     /// The level that has an index.
-    fn level_with_index(
+    pub(super) fn level_with_index(
         &mut self,
         set: SetId,
         index: ExprId,

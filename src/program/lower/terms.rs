@@ -49,17 +49,6 @@ pub(super) enum Expected {
     Result(Rc<Output<SetId>>),
 }
 
-impl Expected {
-    /// The expectation of a value that is to be tied to an output.
-    pub(super) fn of(output: &Output<SetId>) -> Self {
-        match output {
-            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) => Expected::Anything,
-            Output::Enumeration(of) => Expected::Level(*of),
-            Output::Record(_) | Output::List { .. } => Expected::Result(Rc::new(output.clone())),
-        }
-    }
-}
-
 impl Term {
     /// The numbers that it consists of; none for a condition or level.
     pub(super) fn numbers(&self) -> Vec<ExprId> {
