@@ -52,9 +52,10 @@ pub(super) fn meaning(plan: &Plan<'_>, script: &mut Script) -> Meaning {
     let mut meaning = steps.known.remove(&at).unwrap_or_else(|| steps.nothing());
     // The result is turned back, the last symmetry first.
     for (turned, index) in turns.iter().zip(&plan.symmetries).rev() {
-        if let Some(map) = program.symmetries[*index].result {
-            for value in &mut meaning.values {
-                let image = Terms::of_result(&plan.pool, script.inputs.clone(), value).expr(script, map);
+        if let Some(map) = &program.symmetries[*index].result {
+            let mut terms = Terms::of_result(&plan.pool, script.inputs.clone(), &meaning.values);
+            for (value, component) in meaning.values.iter_mut().zip(map) {
+                let image = terms.expr(script, *component);
                 *value = script.define("Real", &format!("(ite {turned} {image} {value})"));
             }
         }

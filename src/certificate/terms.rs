@@ -15,8 +15,8 @@ pub(super) struct Terms<'a> {
     pool: &'a Pool,
     /// The term that each input stands for.
     pub(super) inputs: Vec<String>,
-    /// The term that the result stands for, in the result map of a symmetry.
-    result: Option<String>,
+    /// The terms that the components of the result stand for, in the result map of a symmetry.
+    result: Vec<String>,
     exprs: HashMap<ExprId, String>,
     conds: HashMap<CondId, String>,
     /// By condition and input, the condition under which testing it fetches the input.
@@ -30,7 +30,7 @@ impl<'a> Terms<'a> {
         Self {
             pool,
             inputs,
-            result: None,
+            result: Vec::new(),
             exprs: HashMap::new(),
             conds: HashMap::new(),
             asks: HashMap::new(),
@@ -39,8 +39,8 @@ impl<'a> Terms<'a> {
     }
 
     /// Terms of a result map at a result.
-    pub(super) fn of_result(pool: &'a Pool, inputs: Vec<String>, result: &str) -> Self {
-        Self { result: Some(result.to_owned()), ..Self::new(pool, inputs) }
+    pub(super) fn of_result(pool: &'a Pool, inputs: Vec<String>, result: &[String]) -> Self {
+        Self { result: result.to_vec(), ..Self::new(pool, inputs) }
     }
 
     /// The term of an expression.
@@ -52,7 +52,9 @@ impl<'a> Terms<'a> {
             Node::Const(number) => return real(number.get()),
             Node::Input(input) => return self.inputs[input.index()].clone(),
             // It occurs nowhere else.
-            Node::Result => return self.result.clone().unwrap_or_else(|| real(0.0)),
+            Node::Result(component) => {
+                return self.result.get(usize::from(component)).cloned().unwrap_or_else(|| real(0.0));
+            }
             Node::Unary(op, a) => self.unary(script, op, a),
             Node::Binary(op, a, b) => self.binary(script, op, a, b),
             Node::Ternary(op, a, b, c) => self.ternary(script, op, [a, b, c]),
@@ -194,7 +196,7 @@ impl<'a> Terms<'a> {
         let count = match self.pool.node(expr) {
             Node::Const(_) => 1,
             Node::Select(_, a, b) => self.choices(a)? + self.choices(b)?,
-            Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => return None,
+            Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => return None,
         };
         (count <= MAX_CHOICES).then_some(count)
     }
@@ -207,9 +209,12 @@ impl<'a> Terms<'a> {
                 let (a, b) = (self.chosen(script, a, make), self.chosen(script, b, make));
                 format!("(ite {condition} {a} {b})")
             }
-            Node::Const(_) | Node::Input(_) | Node::Result | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
-                make(script, self.pool.constant(expr).unwrap_or_default())
-            }
+            Node::Const(_)
+            | Node::Input(_)
+            | Node::Result(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..) => make(script, self.pool.constant(expr).unwrap_or_default()),
         }
     }
 
@@ -317,7 +322,7 @@ impl<'a> Terms<'a> {
             return known.clone();
         }
         let term = match pool.node(expr) {
-            Node::Const(_) | Node::Result => "false".to_owned(),
+            Node::Const(_) | Node::Result(_) => "false".to_owned(),
             Node::Input(read) => (read == input).to_string(),
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let parts: Vec<String> = node.children().map(|part| self.reads(script, part, input)).collect();

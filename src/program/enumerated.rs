@@ -281,8 +281,8 @@ fn turns_are_those_of_enumeration() {
                     let turned = used().fold(point.clone(), |p, index| image(&program, &program.symmetries[index], &p));
                     let outcome = at(&program, &turned).evaluate(&turned).unwrap_or_else(|e| panic!("{e:?}"));
                     let maps = used().collect::<Vec<_>>().into_iter().rev();
-                    let maps = maps.filter_map(|index| program.symmetries[index].result);
-                    (turned, maps.fold(outcome.values[0], |value, map| mapped(&program, map, value)))
+                    let maps = maps.filter_map(|index| program.symmetries[index].result.as_ref());
+                    (turned, maps.fold(outcome.values[0], |value, map| mapped(&program, map[0], value)))
                 };
                 let after =
                     used().try_fold(state, |at, index| image_of_state(&program, &program.symmetries[index], at));
@@ -328,7 +328,7 @@ fn sources_are_what_images_depend_on(
 fn mapped(program: &Program, map: super::ExprId, value: f64) -> f64 {
     use super::Node;
     match program.pool.node(map) {
-        Node::Result => value,
+        Node::Result(_) => value,
         Node::Const(number) => number.get(),
         Node::Binary(op, a, b) => op.apply(mapped(program, a, value), mapped(program, b, value)),
         Node::Input(_) | Node::Unary(..) | Node::Ternary(..) | Node::Select(..) => panic!("these maps are sums"),

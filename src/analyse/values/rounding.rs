@@ -112,7 +112,7 @@ impl<'p> Rounding<'p> {
         let passes = match node {
             Node::Const(number) => f64::from(number.get() as f32) == number.get(),
             Node::Input(_) => true,
-            Node::Result => false,
+            Node::Result(_) => false,
             Node::Unary(op, _) => op.row().algebra != UnaryAlgebra::Opaque || op.row().image == Image::Steps,
             Node::Binary(op, ..) => matches!(op.row().algebra, BinaryAlgebra::Minimum | BinaryAlgebra::Maximum),
             Node::Ternary(op, ..) => op.row().algebra == TernaryAlgebra::Clamp,
@@ -135,7 +135,7 @@ impl<'p> Rounding<'p> {
     fn grid_anew(&mut self, expr: ExprId) -> Option<Grid> {
         match self.pool.node(expr) {
             Node::Const(number) => Grid::of(number.get()),
-            Node::Input(_) | Node::Result => None,
+            Node::Input(_) | Node::Result(_) => None,
             Node::Unary(op, a) => {
                 let a = self.grid(a)?;
                 match op.row().algebra {

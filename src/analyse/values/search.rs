@@ -106,7 +106,7 @@ fn fails(pool: &Pool, value: ExprId, point: &Point) -> Option<f32> {
     let result = match pool.node(value) {
         Node::Const(number) => number.get() as f32,
         Node::Input(input) => point.numbers[input.index()] as f32,
-        Node::Result => return None,
+        Node::Result(_) => return None,
         Node::Unary(op, a) => f32::unary(op, at(a)?),
         Node::Binary(op, a, b) => f32::binary(op, at(a)?, at(b)?),
         Node::Ternary(op, a, b, c) => f32::ternary(op, at(a)?, at(b)?, at(c)?),
