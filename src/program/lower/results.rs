@@ -123,7 +123,14 @@ impl Lowering<'_> {
                         Term::Level(found, term) if found == *set => {
                             me.fixed_level(&term).map(i64::from).ok_or_else(|| depends(expr))
                         }
-                        other => Err(type_error(expr.span, &me.describe(&other), "expected a level of the output")),
+                        other @ (Term::Number(_)
+                        | Term::Vector(_)
+                        | Term::Bool(_)
+                        | Term::Level(..)
+                        | Term::List(_)
+                        | Term::Record(_)) => {
+                            Err(type_error(expr.span, &me.describe(&other), "expected a level of the output"))
+                        }
                     }
                 })?;
                 Ok(vec![self.renumbered(own[0], &table, &mut HashMap::new())])
