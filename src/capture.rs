@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::{ABSENT, Column, Columns};
-use crate::program::{Domain, Input, Program};
+use crate::program::{Domain, Input, Kinship, Program};
 use crate::text::file::{read_bytes, shown};
 
 /// The first bytes of every capture.
@@ -76,7 +76,7 @@ impl Kind {
 pub struct Capture {
     /// The points.
     pub columns: Columns<f32>,
-    /// True if the table was another text when the capture was made. Its inputs are the same.
+    /// True if the table meant something else when the capture was made, or that is not known. Its inputs are the same.
     pub table_changed: bool,
 }
 
@@ -221,7 +221,7 @@ pub fn parse(program: &Program, bytes: &[u8]) -> Result<Capture, Diagnostic> {
     }
     let columns = Columns::from_columns(program, columns)
         .map_err(|error| Diagnostic::error(codes::BAD_CAPTURE, format!("is damaged: {error}")).help("make it again"))?;
-    Ok(Capture { columns, table_changed: header.fingerprint != program.fingerprint() })
+    Ok(Capture { columns, table_changed: program.kinship(&header.fingerprint) != Kinship::Same })
 }
 
 /// The header, and what follows it.
@@ -402,6 +402,8 @@ mod tests {
         let old = program("t", r#"{"a": 0, "b": 1}"#);
         let mut new = program("t", r#"{"a": 0, "b": 1}"#);
         new.source = Source::new("t.ron", "another text");
+        assert!(!parse(&new, &binary(&old)).expect("fits").table_changed, "the same meaning");
+        new.rows.clear();
         assert!(parse(&new, &binary(&old)).expect("fits").table_changed);
     }
 }

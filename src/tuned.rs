@@ -4,13 +4,14 @@
 //! with the evidence. Reading it needs no device, so that a build can use what
 //! was measured elsewhere.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::plan::{Plan, Shape};
-use crate::program::Program;
+use crate::program::{Kinship, Program};
 use crate::text::file::{read_text, shown};
 
 const VERSION: u32 = 1;
@@ -33,7 +34,7 @@ pub struct Tuned {
 pub struct Choice {
     /// Name of the table.
     pub table: String,
-    /// Fingerprint of its text when it was measured.
+    /// Fingerprint of its meaning when it was measured.
     pub fingerprint: String,
     /// The plan, as `--plan` takes it.
     pub plan: String,
@@ -101,9 +102,22 @@ impl Tuned {
         Ok(Some(tuned))
     }
 
-    /// The choice for a table, if it was made with this very text of it.
-    pub fn choice(&self, program: &Program) -> Option<&Choice> {
-        self.tables.iter().find(|choice| choice.table == program.name && choice.fingerprint == program.fingerprint())
+    /// The plan chosen for a table, if the table means what it meant then.
+    ///
+    /// # Errors
+    /// With the reason why there is none.
+    pub fn choice(&self, program: &Program) -> Result<(&Choice, Shape), Fallback> {
+        let device = || self.device.clone();
+        let choice = self.tables.iter().find(|choice| choice.table == program.name).ok_or(Fallback::Untuned)?;
+        match program.kinship(&choice.fingerprint) {
+            Kinship::Same => {}
+            Kinship::Other => return Err(Fallback::Changed { device: device() }),
+            Kinship::Unknown => return Err(Fallback::Unknown { device: device() }),
+        }
+        match Shape::from_name(choice.plan.trim_end_matches("+assume")) {
+            Some(shape) => Ok((choice, shape)),
+            None => Err(Fallback::NoSuchPlan { device: device(), plan: choice.plan.clone() }),
+        }
     }
 
     /// Puts a choice in, instead of an older one for the same table.
@@ -122,32 +136,101 @@ impl Tuned {
     }
 }
 
+/// Why nothing that was tuned is used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Fallback {
+    /// Nothing was tuned for the table.
+    Untuned,
+    /// The table has changed since.
+    Changed {
+        /// The device on which it was tuned.
+        device: String,
+    },
+    /// Whether the table has changed since cannot be told.
+    Unknown {
+        /// The device on which it was tuned.
+        device: String,
+    },
+    /// The plan that was chosen is none of this version.
+    NoSuchPlan {
+        /// The device on which it was tuned.
+        device: String,
+        /// The plan.
+        plan: String,
+    },
+}
+
+impl fmt::Display for Fallback {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Untuned => f.write_str("nothing was tuned for it"),
+            Self::Changed { device } => write!(f, "it has changed since it was tuned on {device}"),
+            Self::Unknown { device } => write!(f, "it was tuned on {device} by another version of umbrage"),
+            Self::NoSuchPlan { device, plan } => write!(f, "`{plan}`, chosen on {device}, is no plan of this umbrage"),
+        }
+    }
+}
+
+impl Fallback {
+    /// A choice that exists and is not used, as a warning about a table: what is used instead, and how to tune again.
+    /// Nothing, if there is no choice.
+    pub fn diagnostic(&self, program: &Program, instead: Shape, directory: &Path) -> Option<Diagnostic> {
+        let device = match self {
+            Self::Untuned => return None,
+            Self::Changed { device } | Self::Unknown { device } | Self::NoSuchPlan { device, .. } => device,
+        };
+        let message = format!("what was tuned for `{}` is not used: {self}; `auto` is `{instead}` there", program.name);
+        Some(Diagnostic::warning(codes::OLD_TUNED, message).help(tune(program, device, directory)))
+    }
+}
+
+/// How to tune a table on a device, with the profile that lies beside the directory of choices.
+pub fn tune(program: &Program, device: &str, directory: &Path) -> String {
+    let table = &program.source.name;
+    let profile = directory.with_file_name("profiles").join(format!("{}.ron", program.name));
+    let (exists, profile) = (profile.exists(), shown(&profile));
+    let tune =
+        format!("`umbrage tune {table} --profile {profile} --adapter {} --output {}`", plain(device), shown(directory));
+    match exists {
+        true => format!("to tune it: {tune}"),
+        false => format!(
+            "to tune it: count what occurs, `umbrage profile --table {table} --frames FILE -o {profile}`, then {tune}"
+        ),
+    }
+}
+
 /// The plan that `auto` stands for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Auto {
     /// Its shape.
     pub shape: Shape,
     /// True if it relies on the table's assumptions.
     pub assume: bool,
-    /// True if it was tuned, rather than being the default.
-    pub tuned: bool,
+    /// Set if it is the default, with the reason why it was not tuned.
+    pub fallback: Option<Fallback>,
 }
 
 impl Auto {
-    /// The tuned plan if there is one for this very text of the table, else the
+    /// The tuned plan if there is one for what the table means, else the
     /// default: `switch`, where the key is small enough for it, which does best
     /// on most graphics processors, else `ladder`.
     pub fn of(program: &Program, tuned: Option<&Tuned>) -> Self {
-        let choice = tuned.and_then(|tuned| tuned.choice(program));
-        if let Some(choice) = choice
-            && let Some(shape) = Shape::from_name(choice.plan.trim_end_matches("+assume"))
-        {
-            return Self { shape, assume: choice.assume, tuned: true };
+        match tuned.map_or(Err(Fallback::Untuned), |tuned| tuned.choice(program)) {
+            Ok((choice, shape)) => Self { shape, assume: choice.assume, fallback: None },
+            Err(fallback) => {
+                let switch = Shape::Switch;
+                let shape = if Plan::new(program, switch).is_ok() { switch } else { Shape::Ladder };
+                Self { shape, assume: false, fallback: Some(fallback) }
+            }
         }
-        let switch = Shape::Switch;
-        let shape = if Plan::new(program, switch).is_ok() { switch } else { Shape::Ladder };
-        Self { shape, assume: false, tuned: false }
     }
+}
+
+/// The part of a device's name that stands before any detail in brackets, as one word of a command.
+fn plain(device: &str) -> String {
+    let plain = device.split('(').next().unwrap_or(device).trim();
+    let one = !plain.is_empty() && plain.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
+    if one { plain.to_owned() } else { format!("'{}'", plain.replace('\'', "")) }
 }
 
 /// A device's name as the name of a file: what stands before any detail in brackets.
@@ -205,14 +288,32 @@ mod tests {
     #[test]
     fn auto_is_what_was_tuned_or_else_the_default() {
         let program = Program::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"));
-        let default = Auto { shape: Shape::Switch, assume: false, tuned: false };
-        assert_eq!(Auto::of(&program, None), default);
-        let mut tuned = Tuned::new("d");
+        let default = |fallback| Auto { shape: Shape::Switch, assume: false, fallback: Some(fallback) };
+        assert_eq!(Auto::of(&program, None), default(Fallback::Untuned));
+        let device = || "Some device (of a kind)".to_owned();
+        let mut tuned = Tuned::new(&device());
+        assert_eq!(Auto::of(&program, Some(&tuned)), default(Fallback::Untuned));
         tuned.set(Choice { assume: true, ..choice("smsr", "switch_buffer+assume") });
-        assert_eq!(Auto::of(&program, Some(&tuned)), default, "another text of the table");
+        let unknown = Fallback::Unknown { device: device() };
+        assert_eq!(Auto::of(&program, Some(&tuned)), default(unknown));
         tuned.tables[0].fingerprint = program.fingerprint();
-        let expected = Auto { shape: Shape::SwitchBuffer, assume: true, tuned: true };
+        let expected = Auto { shape: Shape::SwitchBuffer, assume: true, fallback: None };
         assert_eq!(Auto::of(&program, Some(&tuned)), expected);
+        let mut changed = program.clone();
+        changed.rows.pop();
+        let fallback = Fallback::Changed { device: device() };
+        assert_eq!(Auto::of(&changed, Some(&tuned)), default(fallback.clone()));
+        tuned.tables[0].plan = "spiral".to_owned();
+        let no_plan = Fallback::NoSuchPlan { device: device(), plan: "spiral".to_owned() };
+        assert_eq!(Auto::of(&program, Some(&tuned)), default(no_plan));
+
+        let said = fallback.diagnostic(&program, Shape::Switch, Path::new("tuned")).expect("said");
+        let message = "what was tuned for `smsr` is not used: it has changed since it was tuned on Some device (of a kind); \
+                       `auto` is `switch` there";
+        assert_eq!(said.message, message);
+        let command = "umbrage tune tables/smsr.ron --profile profiles/smsr.ron --adapter 'Some device' --output tuned";
+        assert_eq!(said.notes, [format!("to tune it: `{command}`")]);
+        assert_eq!(Fallback::Untuned.diagnostic(&program, Shape::Switch, Path::new("tuned")), None);
     }
 
     #[test]

@@ -7,7 +7,10 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::{Artifact, Built, NamedProfile, Options, beside, find_tables, profile_of, programs, tuned_in, weigh};
+use super::{
+    Artifact, Built, Choices, NamedProfile, Options, beside, find_tables, misplaced, orphans, profile_of, programs,
+    weigh,
+};
 use crate::analyse::{self, LintLevels};
 use crate::diag::{Diagnostic, Failure, Severity, codes};
 use crate::profile;
@@ -16,7 +19,6 @@ use crate::prove::is_unsuitable;
 use crate::skeleton;
 use crate::table::Table;
 use crate::text::file::shown;
-use crate::tuned::slug;
 
 /// The order for a run.
 #[derive(Debug, Clone, Default)]
@@ -47,6 +49,8 @@ pub struct Batch {
     pub messages: Vec<Failure>,
     /// The files and directories that the run depends on, as far as they exist.
     pub inputs: BTreeSet<PathBuf>,
+    /// The directories that it would have looked into if they were there.
+    pub absent: BTreeSet<PathBuf>,
     /// The skeletons that were asked for.
     pub skeletons: Vec<Artifact>,
 }
@@ -76,6 +80,13 @@ impl Batch {
         if path.exists() {
             self.inputs.insert(path.to_owned());
         }
+    }
+
+    /// Notes a directory that is read if it exists.
+    fn looks_into(&mut self, directory: Option<&Path>) {
+        let Some(directory) = directory else { return };
+        let set = if directory.exists() { &mut self.inputs } else { &mut self.absent };
+        set.insert(directory.to_owned());
     }
 
     /// Notes what went wrong, and the file that it is about.
@@ -149,23 +160,21 @@ fn collect(request: &Request) -> Batch {
     for path in &request.paths {
         let mut options = request.options.clone();
         batch.reads(path);
+        let profiles = beside(path, "profiles");
+        batch.looks_into(profiles.as_deref());
+        let mut evidence = Evidence { given: &given, directory: profiles, choices: None };
         if options.auto {
             let directory = request.tuned.clone().or_else(|| beside(path, "tuned"));
-            if let Some(directory) = directory {
-                batch.reads(&directory);
-                options.tuned = batch.keep(tuned_in(&directory)).unwrap_or_default();
-            }
-            let device = request.device.as_deref().map(slug);
-            options.tuned.retain(|tuned| device.as_ref().is_none_or(|device| slug(&tuned.device) == *device));
+            batch.looks_into(directory.as_deref());
+            let directory = directory.unwrap_or_else(|| PathBuf::from("tuned"));
+            evidence.choices = batch.keep(Choices::read(&directory, request.device.as_deref()));
+            options.tuned = evidence.choices.iter().flat_map(Choices::followed).cloned().collect();
         }
-        let profiles = beside(path, "profiles");
-        if let Some(directory) = &profiles {
-            batch.reads(directory);
-        }
-        let evidence = Evidence { given: &given, directory: profiles };
+        let mut names = BTreeSet::new();
         for file in batch.keep(find_tables(path)).unwrap_or_default() {
             batch.reads(&file);
             let Some(table) = batch.keep(Table::read(&file)) else { continue };
+            names.insert(table.name.value.clone());
             // An exhibit is built only if it was named.
             if path.is_dir() && table.exhibit.is_some() {
                 continue;
@@ -175,6 +184,11 @@ fn collect(request: &Request) -> Batch {
             let built = batch.keep(built);
             batch.messages.extend(built.iter().flat_map(|(_, built)| refused(built)));
             batch.tables.extend(built);
+        }
+        // The table of a profile may be one that could not be read, or one that was not asked for.
+        if let Some(directory) = evidence.directory.filter(|_| path.is_dir() && !batch.failed()) {
+            let orphans = batch.keep(orphans(&directory, &names)).unwrap_or_default();
+            batch.messages.extend(orphans.into_iter().map(|warning| Failure::bare("", warning)));
         }
     }
     // A table that could not be read may be the one that a profile is about.
@@ -189,10 +203,11 @@ fn collect(request: &Request) -> Batch {
     batch
 }
 
-/// The places of the profiles of tables.
+/// The places of the profiles of tables, and the choices for them.
 struct Evidence<'a> {
     given: &'a [NamedProfile],
     directory: Option<PathBuf>,
+    choices: Option<Choices>,
 }
 
 impl Evidence<'_> {
@@ -248,9 +263,10 @@ fn one(
         for (path, _) in &profiles {
             batch.reads(path);
         }
-        for warning in weigh(program, &profiles, options)? {
-            batch.messages.push(Failure::bare("", warning));
-        }
+        let misplaced = profiles.iter().filter_map(|profile| misplaced(&program.name, profile));
+        let unused = evidence.choices.iter().flat_map(|choices| choices.unused(program));
+        let warnings: Vec<Diagnostic> = misplaced.chain(unused).chain(weigh(program, &profiles, options)?).collect();
+        batch.messages.extend(warnings.into_iter().map(|warning| Failure::bare("", warning)));
     }
     let built = programs(&checked, options)?;
     Ok((checked, built))

@@ -3,6 +3,7 @@
 //! Unless something else is asked for, both lie beside the directory of the
 //! tables: `profiles/smsr.ron` and `tuned/*.ron` for `tables/smsr.ron`.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::{Options, wanted};
@@ -10,7 +11,7 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::profile::{self, Profile};
 use crate::program::Program;
 use crate::text::file::{io_reason, shown};
-use crate::tuned::Tuned;
+use crate::tuned::{Auto, Fallback, Tuned, slug, tune};
 
 /// A profile and the name of its file.
 pub type NamedProfile = (PathBuf, Profile);
@@ -41,6 +42,12 @@ pub fn profile_of(table: &str, directory: &Path) -> Result<Option<NamedProfile>,
 /// # Errors
 /// When the directory or a file in it cannot be read.
 pub fn tuned_in(directory: &Path) -> Result<Vec<Tuned>, Failure> {
+    let read: Result<Vec<_>, _> = ron_files(directory)?.iter().map(|path| Tuned::read(path)).collect();
+    Ok(read?.into_iter().flatten().collect())
+}
+
+/// The files of a directory that are named *.ron, sorted; none, if it is no directory.
+fn ron_files(directory: &Path) -> Result<Vec<PathBuf>, Failure> {
     if !directory.is_dir() {
         return Ok(Vec::new());
     }
@@ -57,8 +64,52 @@ pub fn tuned_in(directory: &Path) -> Result<Vec<Tuned>, Failure> {
         }
     }
     paths.sort();
-    let read: Result<Vec<_>, _> = paths.iter().map(|path| Tuned::read(path)).collect();
-    Ok(read?.into_iter().flatten().collect())
+    Ok(paths)
+}
+
+/// The choices that `auto` may follow.
+#[derive(Debug, Clone)]
+pub struct Choices {
+    directory: PathBuf,
+    device: Option<String>,
+    all: Vec<Tuned>,
+}
+
+impl Choices {
+    /// Reads a directory of choices. If a device is named, only those that were made there are followed.
+    ///
+    /// # Errors
+    /// As [`tuned_in`].
+    pub fn read(directory: &Path, device: Option<&str>) -> Result<Self, Failure> {
+        let all = tuned_in(directory)?;
+        Ok(Self { directory: directory.to_owned(), device: device.map(str::to_owned), all })
+    }
+
+    /// Those that are followed.
+    pub fn followed(&self) -> impl Iterator<Item = &Tuned> {
+        let here = |tuned: &&Tuned| self.device.as_ref().is_none_or(|device| slug(device) == slug(&tuned.device));
+        self.all.iter().filter(here)
+    }
+
+    /// What is to be said about a table: choices that are not used, and a device on which nothing was tuned. Warnings.
+    pub fn unused(&self, program: &Program) -> Vec<Diagnostic> {
+        let instead = Auto::of(program, None).shape;
+        let unused = |tuned: &Tuned| tuned.choice(program).err()?.diagnostic(program, instead, &self.directory);
+        let mut said: Vec<Diagnostic> = self.followed().filter_map(unused).collect();
+        let untuned = |tuned: &Tuned| tuned.choice(program) == Err(Fallback::Untuned);
+        if let (Some(device), true) = (&self.device, self.followed().all(untuned)) {
+            let message = format!("nothing was tuned for `{}` on `{device}`; `auto` is `{instead}`", program.name);
+            let others = self.all.iter().filter(|tuned| tuned.choice(program).is_ok()).map(|tuned| slug(&tuned.device));
+            let others: Vec<String> = others.collect();
+            let mut warning =
+                Diagnostic::warning(codes::OLD_TUNED, message).help(tune(program, device, &self.directory));
+            if !others.is_empty() {
+                warning = warning.help(format!("it was tuned on: {}", others.join(", ")));
+            }
+            said.push(warning);
+        }
+        said
+    }
 }
 
 /// Plans a table for its profiles, those of its own name, if there are any.
@@ -78,7 +129,7 @@ pub fn weigh(program: &Program, profiles: &[NamedProfile], options: &mut Options
         all.merge(profile, 1.0).map_err(|reason| {
             let message = format!("does not go with {}: {reason}", names.join(", "));
             let error = Diagnostic::error(codes::OTHER_PROFILE, message);
-            Failure::bare(name.clone(), error.help("count both with the same text of the table"))
+            Failure::bare(name.clone(), error.help("count both with the same table"))
         })?;
         names.push(name);
     }
@@ -95,7 +146,39 @@ pub fn weigh(program: &Program, profiles: &[NamedProfile], options: &mut Options
             return Err(Failure { source: program.source.clone(), diagnostics: excluded });
         }
     }
-    Ok(fitted.warning.into_iter().collect())
+    Ok(fitted.lost.into_iter().collect())
+}
+
+/// What is to be said about a profile that lies where that of a table is looked for, and counts another one.
+pub fn misplaced(table: &str, (path, profile): &NamedProfile) -> Option<Diagnostic> {
+    if profile.table == table {
+        return None;
+    }
+    let right = path.with_file_name(format!("{}.ron", profile.table));
+    let (name, other) = (shown(path), &profile.table);
+    let message = format!("{name}: is a profile of the table `{other}`, not of `{table}`, and is not used");
+    let warning = Diagnostic::warning(codes::OLD_PROFILE, message);
+    Some(match right.exists() {
+        true => warning.help(format!("remove it, `rm {name}`: `{other}` has {}", shown(&right))),
+        false => warning.help(format!("name it like its table: `mv {name} {}`", shown(&right))),
+    })
+}
+
+/// What is to be said about profiles in a directory that are called like none of the tables.
+///
+/// # Errors
+/// When the directory cannot be read.
+pub fn orphans(directory: &Path, tables: &BTreeSet<String>) -> Result<Vec<Diagnostic>, Failure> {
+    let orphan = |path: PathBuf| {
+        let table = path.file_stem()?.to_str()?;
+        (!tables.contains(table)).then(|| {
+            let name = shown(&path);
+            let warning =
+                Diagnostic::warning(codes::OLD_PROFILE, format!("{name}: there is no table `{table}`; it is not used"));
+            warning.help(format!("name it like the table that it counts, or remove it: `rm {name}`"))
+        })
+    };
+    Ok(ron_files(directory)?.into_iter().filter_map(orphan).collect())
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 //! of the run was checked, proved, emitted and validated, and all of them appear
 //! together, so that a failure leaves nothing behind.
 
+mod absent;
 mod batch;
 mod evidence;
 mod stamp;
@@ -20,10 +21,10 @@ use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::Program;
 use crate::prove::{Proof, is_of_one_plan};
 use crate::text::file::{Home, PendingFile, io_reason, read_bytes, shown, unwritable};
-use crate::tuned::{Auto, Tuned};
+use crate::tuned::{Auto, Fallback, Tuned};
 
 pub use batch::{Batch, Request, run};
-pub use evidence::{NamedProfile, beside, profile_of, tuned_in, weigh};
+pub use evidence::{Choices, NamedProfile, beside, misplaced, orphans, profile_of, tuned_in, weigh};
 pub use tables::{Errors, Tables};
 
 /// The files to make of each table.
@@ -96,6 +97,8 @@ pub struct BuiltPlan {
     pub chosen_on: Vec<String>,
     /// The operations that linear arithmetic does not reach in its certificate, in words; `None` without certificates.
     pub beyond: Option<Vec<String>>,
+    /// Set if `auto` is this plan since nothing that was tuned can be used, with the reason.
+    pub fallback: Option<String>,
 }
 
 /// A plan to make.
@@ -103,6 +106,7 @@ struct Wanted {
     shape: Shape,
     assume: bool,
     chosen_on: Vec<String>,
+    fallback: Option<String>,
 }
 
 impl Wanted {
@@ -113,22 +117,32 @@ impl Wanted {
 
 /// The plans to make of a table, each once.
 fn wanted(program: &Program, options: &Options) -> Vec<Wanted> {
-    let named = options.shapes.iter().map(|shape| (*shape, options.assume, None));
-    let mut all: Vec<(Shape, bool, Option<&str>)> = named.collect();
+    let mut wanted: Vec<Wanted> = Vec::new();
+    let mut want = |shape: Shape, assume: bool| {
+        let place = wanted.iter().position(|plan| plan.shape == shape && plan.assume == assume);
+        let place = place.unwrap_or_else(|| {
+            wanted.push(Wanted { shape, assume, chosen_on: Vec::new(), fallback: None });
+            wanted.len() - 1
+        });
+        &mut wanted[place]
+    };
+    for shape in &options.shapes {
+        want(*shape, options.assume);
+    }
     if options.auto {
         let tuned = options.tuned.iter().map(|tuned| (Auto::of(program, Some(tuned)), tuned.device.as_str()));
-        let tuned: Vec<_> = tuned.filter(|(auto, _)| auto.tuned).collect();
-        if tuned.is_empty() {
-            all.push((Auto::of(program, None).shape, options.assume, None));
+        let (chosen, not): (Vec<_>, Vec<_>) = tuned.partition(|(auto, _)| auto.fallback.is_none());
+        for (auto, device) in &chosen {
+            want(auto.shape, auto.assume).chosen_on.push((*device).to_owned());
         }
-        all.extend(tuned.into_iter().map(|(auto, device)| (auto.shape, auto.assume, Some(device))));
-    }
-    let mut wanted: Vec<Wanted> = Vec::new();
-    for (shape, assume, device) in all {
-        let device = device.map(str::to_owned);
-        match wanted.iter_mut().find(|plan| plan.shape == shape && plan.assume == assume) {
-            Some(plan) => plan.chosen_on.extend(device),
-            None => wanted.push(Wanted { shape, assume, chosen_on: device.into_iter().collect() }),
+        if chosen.is_empty() {
+            let mut reasons: Vec<String> =
+                not.iter().filter_map(|(auto, _)| auto.fallback.as_ref()).map(Fallback::to_string).collect();
+            reasons.dedup();
+            if reasons.is_empty() {
+                reasons.push(Fallback::Untuned.to_string());
+            }
+            want(Auto::of(program, None).shape, options.assume).fallback = Some(reasons.join("; "));
         }
     }
     wanted
@@ -169,7 +183,7 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
         all.dedup();
     }
     let proof = proved.iter().map(|proved| proved.proof().clone()).reduce(Proof::and);
-    let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new(), beyond };
+    let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new(), fallback: None, beyond };
     built.plans.extend(proof.map(plan));
     Ok(built)
 }
@@ -225,7 +239,8 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
             built.files.push(Artifact { path: path("lookup.bin"), contents });
         }
         let beyond = certificate(&mut built, proved.plan(), &name, options);
-        built.plans.push(BuiltPlan { name, proof: proved.proof().clone(), chosen_on: wanted.chosen_on, beyond });
+        let Wanted { chosen_on, fallback, .. } = wanted;
+        built.plans.push(BuiltPlan { name, proof: proved.proof().clone(), chosen_on, fallback, beyond });
     }
     match built.skipped.first() {
         Some((_, reason)) if built.plans.is_empty() => Err(reason.clone()),

@@ -11,14 +11,17 @@
 //! Files go to `OUT_DIR`, one folder per table, and are included from there:
 //! `include_str!(concat!(env!("OUT_DIR"), "/smsr/ordered.wgsl"))`.
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use super::{Batch, Options, Request, run, stamp, write};
+use super::stamp::{Made, Stamp};
+use super::{Batch, Options, Request, absent, run, write};
 use crate::analyse::LintLevel;
 use crate::diag::{Diagnostic, Failure, Severity, codes, visible};
 use crate::emit::Target;
 use crate::plan::Shape;
+use crate::text::file::shown;
 use crate::text::reach;
 
 /// The variable that names a directory for copies that people can read.
@@ -174,8 +177,8 @@ impl Tables {
     }
 
     /// Checks, proves, emits and validates every table, and writes the files,
-    /// those that say something new. Tells Cargo what to watch, and shows
-    /// findings as warnings. Returns the directory of the files.
+    /// those that say something new; what an earlier run made and this one does
+    /// not is removed. Tells Cargo what to watch, and shows findings as warnings. Returns the directory of the files.
     ///
     /// If the variable `UMBRAGE_OUT_DIR` is set, a copy goes there, into a
     /// folder with the name of the package.
@@ -200,17 +203,19 @@ impl Tables {
         if options.targets.is_empty() {
             options.targets.push(Target::Wgsl);
         }
-        let copies = copies();
+        let (copies, stamp) = (copies(), own.as_deref().map(Stamp::next));
         println!("cargo::rerun-if-env-changed={COPIES}");
         if copies.is_none()
-            && let Some(fresh) = own.as_ref().and_then(|own| stamp::fresh(own, &self.request, &output))
+            && let Some(fresh) = stamp.as_ref().and_then(|stamp| stamp.fresh(&self.request, &output))
         {
             fresh.inputs.iter().for_each(|input| watch(input));
+            watch_absent(stamp.as_ref(), &fresh.absent);
             fresh.warnings.iter().for_each(|warning| warn(warning));
             return Ok(output);
         }
         let batch = run(&self.request);
         batch.inputs.iter().for_each(|input| watch(input));
+        watch_absent(stamp.as_ref(), &batch.absent);
         let warnings = warnings(&batch);
         warnings.iter().for_each(|warning| warn(warning));
         if batch.failed() {
@@ -220,8 +225,12 @@ impl Tables {
         for directory in [Some(&output), copies.as_ref()].into_iter().flatten() {
             write(directory, &files).map_err(|failure| Errors(vec![failure]))?;
         }
-        if let Some(own) = own {
-            stamp::leave(&own, &self.request, &output, &warnings, &batch.inputs, &files);
+        if let Some(stamp) = stamp {
+            let (inputs, absent) = (&batch.inputs, &batch.absent);
+            let made =
+                Made { request: &self.request, output: &output, warnings: &warnings, inputs, absent, files: &files };
+            stamp.sweep(&made, copies.as_deref());
+            stamp.leave(&made);
         }
         Ok(output)
     }
@@ -259,6 +268,13 @@ fn watch(path: &Path) {
     println!("cargo::rerun-if-changed={}", path.display());
 }
 
+/// Watches what would be read if it were there. Where that is not possible it is seen when the script runs for another
+/// reason.
+fn watch_absent(stamp: Option<&Stamp>, places: &BTreeSet<PathBuf>) {
+    let watched = stamp.and_then(|stamp| absent::links(&stamp.absent(), places).ok().flatten());
+    watched.iter().for_each(|directory| watch(directory));
+}
+
 /// Why tables could not be compiled: everything that is wrong with all of them.
 ///
 /// A build script that returns them from `main` shows them as they are meant to be read.
@@ -289,10 +305,32 @@ impl fmt::Display for Errors {
         }
         let first = self.0.iter().find_map(|failure| Some((failure, failure.diagnostics.first()?)));
         let Some((failure, first)) = first else { return Ok(()) };
-        if failure.source.name.ends_with(".ron") {
-            write!(f, "`umbrage check {}` checks without building; ", failure.source.name)?;
+        let name = &failure.source.name;
+        let looks = match first.code {
+            _ if !name.ends_with(".ron") => None,
+            codes::BAD_PROFILE | codes::EMPTY_PROFILE => Some("profile show"),
+            // No other command reads only these.
+            codes::OTHER_PROFILE | codes::BAD_TUNED => None,
+            _ => Some("check"),
+        };
+        if let Some(command) = looks {
+            write!(f, "`umbrage {command} {}` checks without building; ", typed(name))?;
         }
         write!(f, "`umbrage explain {}` says at length what {} means", first.code, first.code)
+    }
+}
+
+/// A path as it is typed where Cargo was started, which need not be the directory of the package.
+fn typed(name: &str) -> String {
+    let started = std::env::var_os("PWD").map(PathBuf::from).filter(|place| place.is_dir());
+    let elsewhere = started.zip(std::env::current_dir().ok()).is_some_and(|(started, here)| {
+        let same = |place: PathBuf| std::fs::canonicalize(&place).unwrap_or(place);
+        same(started) != same(here)
+    });
+    let path = if elsewhere { std::path::absolute(name).unwrap_or_else(|_| name.into()) } else { name.into() };
+    match shown(&path) {
+        path if path.contains(char::is_whitespace) => format!("'{path}'"),
+        path => path,
     }
 }
 

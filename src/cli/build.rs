@@ -85,21 +85,21 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
 }
 
-/// Builds every table. Says how that went, and on which files it depends.
+/// Builds every table. Says how that went, and on which files it depends, those included that are not there.
 fn once(arguments: &Arguments, request: &Request, report: &Report) -> Result<(Outcome, BTreeSet<PathBuf>)> {
     let batch = build::run(request);
     for message in &batch.messages {
         report.failure(message);
     }
     if batch.failed() {
-        return Ok((Outcome::Failed, batch.inputs));
+        return Ok((Outcome::Failed, &batch.inputs | &batch.absent));
     }
     let files = batch.files();
     let written = build::write(&arguments.output, &files)?;
     if report.format == Format::Human {
         summary(&batch.tables, &request.options, files.len(), written, arguments)?;
     }
-    Ok((if batch.warned() { Outcome::Findings } else { Outcome::Clean }, batch.inputs))
+    Ok((if batch.warned() { Outcome::Findings } else { Outcome::Clean }, &batch.inputs | &batch.absent))
 }
 
 impl Arguments {
@@ -148,7 +148,8 @@ fn summary(
                 [] => String::new(),
                 devices => format!("; chosen on {}", devices.join(", ")),
             };
-            writeln!(out, "  {:<14} proved {}{chosen}", plan.name, plan.proof)?;
+            let auto = plan.fallback.as_ref().map_or(String::new(), |reason| format!("; `auto`: {reason}"));
+            writeln!(out, "  {:<14} proved {}{chosen}{auto}", plan.name, plan.proof)?;
             match plan.beyond.as_deref() {
                 None => {}
                 Some([]) => writeln!(out, "  {:<14} certificate: linear", "")?,

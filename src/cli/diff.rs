@@ -18,7 +18,7 @@ use crate::plan::Weights;
 use crate::profile;
 use crate::program::Program;
 use crate::text::file::shown;
-use crate::tuned::{Auto, Tuned};
+use crate::tuned::{Auto, Fallback, Tuned};
 
 /// Arguments of `umbrage diff`.
 #[derive(clap::Args)]
@@ -104,11 +104,24 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     }
     let mut outcome = Outcome::Clean;
     for ((program, tuned), profiles) in programs.iter().zip(&tuned).zip(&profiles) {
-        let mut options = if auto { with_auto(program, &gpu, tuned.as_deref(), &options)? } else { options.clone() };
+        let mut options = options.clone();
+        let chosen = if auto { Some(with_auto(program, &gpu, tuned.as_deref(), &mut options)?) } else { None };
+        let unused = chosen.iter().filter_map(|auto| {
+            let directory = tuned.as_deref().unwrap_or(Path::new("tuned"));
+            auto.fallback.as_ref()?.diagnostic(program, auto.shape, directory)
+        });
+        for warning in unused {
+            report.failure(&Failure::bare("", warning));
+            outcome = Outcome::Findings;
+        }
         let found = match profiles {
             Some(directory) if given.is_empty() => build::profile_of(&program.name, directory)?,
             _ => None,
         };
+        if let Some(warning) = found.as_ref().and_then(|found| build::misplaced(&program.name, found)) {
+            report.failure(&Failure::bare("", warning));
+            outcome = Outcome::Findings;
+        }
         let mut planned = build::Options { assume: options.assume, ..build::Options::default() };
         for warning in build::weigh(program, if given.is_empty() { found.as_slice() } else { &given }, &mut planned)? {
             report.failure(&Failure::bare("", warning));
@@ -129,8 +142,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
             outcome = Outcome::Findings;
         }
         match report.format {
-            Format::Human => human(&mut out, program, options.weights.as_ref(), &result)?,
-            Format::Json => writeln!(out, "{}", json(&gpu, options.weights.as_ref(), &result))?,
+            Format::Human => human(&mut out, program, &options, chosen.as_ref(), &result)?,
+            Format::Json => writeln!(out, "{}", json(&gpu, &options, chosen.as_ref(), &result))?,
         }
     }
     out.flush()?;
@@ -143,16 +156,15 @@ fn with_auto(
     program: &Program,
     gpu: &Gpu,
     tuned: Option<&Path>,
-    options: &Options,
-) -> std::result::Result<Options, Failure> {
+    options: &mut Options,
+) -> std::result::Result<Auto, Failure> {
     let tuned = tuned.map_or(Ok(None), |directory| Tuned::read(&Tuned::path(directory, gpu.name())))?;
     let auto = Auto::of(program, tuned.as_ref());
-    let mut options = options.clone();
     if !options.shapes.contains(&auto.shape) {
         options.shapes.push(auto.shape);
     }
     options.assume |= auto.assume;
-    Ok(options)
+    Ok(auto)
 }
 
 fn progress(program: &Program) -> ProgressBar {
@@ -167,11 +179,22 @@ fn progress(program: &Program) -> ProgressBar {
     bar
 }
 
-fn human(out: &mut impl Write, program: &Program, weights: Option<&Weights>, report: &diff::Report) -> Result<()> {
+fn human(
+    out: &mut impl Write,
+    program: &Program,
+    options: &Options,
+    auto: Option<&Auto>,
+    report: &diff::Report,
+) -> Result<()> {
     let function = program.function.as_ref().map_or(String::new(), |f| format!(", function {}", f.name));
     let states = report.states.map_or(String::new(), |states| format!("{states} states, "));
+    let weights = options.weights.as_ref();
     let planned = weights.map_or(String::new(), |weights| format!("; planned for {}", weights.origin()));
     writeln!(out, "{}{function}: {states}{} points{planned}", program.source.name, report.points)?;
+    if let Some(auto) = auto {
+        let why = auto.fallback.as_ref().map_or("tuned on this device".to_owned(), Fallback::to_string);
+        writeln!(out, "  `auto` is `{}`: {why}", auto.shape)?;
+    }
     writeln!(out, "  plan           entry   source   bit-equal  admissible   offending   worst difference")?;
     for run in &report.runs {
         writeln!(
@@ -198,7 +221,7 @@ fn human(out: &mut impl Write, program: &Program, weights: Option<&Weights>, rep
     Ok(())
 }
 
-fn json(gpu: &Gpu, weights: Option<&Weights>, report: &diff::Report) -> serde_json::Value {
+fn json(gpu: &Gpu, options: &Options, auto: Option<&Auto>, report: &diff::Report) -> serde_json::Value {
     let runs = report.runs.iter().map(|run| {
         json!({
             "plan": run.shape.name(),
@@ -217,7 +240,8 @@ fn json(gpu: &Gpu, weights: Option<&Weights>, report: &diff::Report) -> serde_js
         "table": report.table,
         "states": report.states,
         "points": report.points,
-        "profile": weights.map(Weights::origin),
+        "profile": options.weights.as_ref().map(Weights::origin),
+        "auto": auto.map(|auto| json!({"plan": auto.shape.name(), "fallback": auto.fallback.as_ref().map(Fallback::to_string)})),
         "runs": runs.collect::<Vec<_>>(),
     })
 }

@@ -3,20 +3,24 @@
 use std::path::Path;
 
 use super::messages::Report;
-use crate::diag::Failure;
-use crate::diag::{Diagnostic, codes};
+use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::profile::{self, Fitted};
 use crate::program::Program;
 use crate::text::file::shown;
-use crate::tuned::{Choice, Tuned};
+use crate::tuned::{Choice, Tuned, tune};
+
+/// Says what is not as it was when a profile was counted. Returns whether there is anything.
+pub(super) fn say(fitted: &Fitted, report: &Report) -> bool {
+    let said: Vec<_> = fitted.lost.iter().chain(&fitted.aged).cloned().collect();
+    report.show(&Source::new("", ""), &said);
+    !said.is_empty()
+}
 
 /// Reads the profile of a table; says what of it was lost, if the table has changed.
 pub(super) fn read(program: &Program, path: Option<&Path>, report: &Report) -> Result<Option<Fitted>, Failure> {
     let Some(path) = path else { return Ok(None) };
     let fitted = profile::fit(program, profile::read(path)?, &shown(path))?;
-    if let Some(warning) = &fitted.warning {
-        report.failure(&Failure::bare(shown(path), warning.clone()));
-    }
+    say(&fitted, report);
     Ok(Some(fitted))
 }
 
@@ -28,12 +32,12 @@ pub(super) fn tuned(path: &Path) -> Result<Tuned, Failure> {
     })
 }
 
-/// The device, and what was chosen on it for this very text of a table.
-pub(super) fn choice<'t>(program: &Program, tuned: &'t Tuned) -> Result<(&'t str, &'t Choice), Failure> {
-    let found = tuned.choice(program).map(|choice| (tuned.device.as_str(), choice));
-    found.ok_or_else(|| {
-        let message = format!("nothing was tuned for this text of `{}` on {}", program.name, tuned.device);
-        let error = Diagnostic::error(codes::BAD_TUNED, message);
-        Failure::bare(program.source.name.clone(), error.help("run `umbrage tune` again, or leave out --tuned"))
+/// The device, and what was chosen on it for what a table means.
+pub(super) fn choice<'t>(program: &Program, tuned: &'t Tuned, path: &Path) -> Result<(&'t str, &'t Choice), Failure> {
+    tuned.choice(program).map(|(choice, _)| (tuned.device.as_str(), choice)).map_err(|reason| {
+        let message = format!("has no choice for `{}` that can be used: {reason}", program.name);
+        let directory = path.parent().unwrap_or(path);
+        let error = Diagnostic::error(codes::BAD_TUNED, message).help(tune(program, &tuned.device, directory));
+        Failure::bare(shown(path), error.help("or leave out --tuned"))
     })
 }

@@ -33,7 +33,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
     let fitted = profiled::read(&program, arguments.profile.as_deref(), report)?;
     let tuned = arguments.tuned.as_deref().map(profiled::tuned).transpose()?;
-    let choice = tuned.as_ref().map(|tuned| profiled::choice(&program, tuned)).transpose()?;
+    let choice = tuned.as_ref().zip(arguments.tuned.as_deref());
+    let choice = choice.map(|(tuned, path)| profiled::choice(&program, tuned, path)).transpose()?;
     let known = Known { profile: fitted.as_ref().map(|fitted| &fitted.profile), tuned: choice };
     let mut sink = Sink::create(&arguments.output)?;
     let page = report::page(&program, known)?;

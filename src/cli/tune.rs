@@ -98,7 +98,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let name = name.join(", ");
     let fitted = fit(&program, profile::read_all(&arguments.profile, &[])?, &name)?;
     let mut outcome = Outcome::Clean;
-    if let Some(warning) = &fitted.warning {
+    if let Some(warning) = &fitted.lost {
         report.failure(&Failure::bare("", warning.clone()));
         outcome = Outcome::Findings;
     }

@@ -155,9 +155,10 @@ registry! {
     BAD_PROFILE = "U0611", Failure, Error, "a profile that is damaged, or no profile at all";
     OTHER_PROFILE = "U0612", Failure, Error, "a profile of another table, or one of which nothing is left";
     EMPTY_PROFILE = "U0613", Failure, Error, "a profile that counts nothing";
-    OLD_PROFILE = "U0614", Failure, Warning, "a profile that was counted with another text of the table (a warning: what of it was kept, what lost)";
+    OLD_PROFILE = "U0614", Failure, Warning, "a profile that is used in part, or not at all (a warning: what was lost, and why)";
     EXCLUDED_STATE = "U0615", Failure, Error, "a state that occurs in a profile although an assumption excludes it";
     BAD_TUNED = "U0616", Failure, Error, "a file of tuned choices that is damaged or of another version";
+    OLD_TUNED = "U0617", Failure, Warning, "a tuned choice that is not used (a warning: why, and what is used instead)";
     // Values given to a table, and what tools do to one.
     BAD_COLUMN = "U0701", Failure, Error, "a column of data is unknown, missing or given twice";
     BAD_VALUE = "U0702", Failure, Error, "a value of data is no level or number of its input";

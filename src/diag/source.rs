@@ -87,9 +87,11 @@ impl Source {
         self.line_column(offset).0
     }
 
-    /// FNV-1a, 64 bits, of the text: tells whether something was made from this very text.
+    /// FNV-1a, 64 bits, of the text: tells whether something was made from this very text. Lines may end in either way.
     pub fn fingerprint(&self) -> u64 {
-        fnv1a(self.text.bytes())
+        let bytes = self.text.as_bytes();
+        let ends = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) == Some(&b'\n');
+        fnv1a((0..bytes.len()).filter(|at| !ends(*at)).map(|at| bytes[at]))
     }
 
     /// Byte offset of a line and column, both counted from 1, columns in characters.
@@ -162,5 +164,7 @@ mod tests {
     fn fingerprint_is_fnv() {
         assert_eq!(Source::new("t", "").fingerprint(), 0xcbf2_9ce4_8422_2325);
         assert_eq!(Source::new("t", "a").fingerprint(), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(Source::new("t", "a\r\nb\r\n").fingerprint(), Source::new("t", "a\nb\n").fingerprint());
+        assert_ne!(Source::new("t", "a\rb").fingerprint(), Source::new("t", "ab").fingerprint());
     }
 }

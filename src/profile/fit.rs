@@ -1,8 +1,8 @@
 //! The fit of a profile to a table: as it is, mapped, or not at all.
 //!
 //! A table changes more often than a scene is counted. While the discrete
-//! inputs stay the same, the states mean what they meant, and every count
-//! stands. If they changed, all that is left is how often each case occurred:
+//! inputs stay the same, the states mean what they meant, and every count of a
+//! state stands, which is all that plans depend on. If they changed, all that is left is how often each case occurred:
 //! its count is spread over the states in which the table takes it now, and
 //! what belonged to cases that are gone is lost, which is said.
 
@@ -13,15 +13,18 @@ use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::Interpreter;
 use crate::plan::Weights;
 use crate::program::symbolic::Machine;
-use crate::program::{Assumption, Domain, Program, Value, can_occur, reachable};
+use crate::program::{Assumption, Domain, Kinship, Program, Value, can_occur, reachable};
 
 /// A profile that fits a table.
 #[derive(Debug, Clone)]
 pub struct Fitted {
     /// The profile, of this table.
     pub profile: Profile,
-    /// The loss on the way, if the table has changed.
-    pub warning: Option<Diagnostic>,
+    /// What was lost on the way, if the inputs of the table have changed: a warning.
+    pub lost: Option<Diagnostic>,
+    /// Set if only the counts of cases, which no plan depends on, may be those of an older table: a warning for whoever
+    /// looks at them.
+    pub aged: Option<Diagnostic>,
 }
 
 /// A state that occurs although an assumption excludes it.
@@ -54,32 +57,42 @@ pub fn fit(program: &Program, profile: Profile, name: &str) -> Result<Fitted, Fa
         return refuse(codes::EMPTY_PROFILE, message, "count scenes in which the table is evaluated");
     }
     let same_inputs = profile.inputs == state_inputs(program);
-    if profile.fingerprint == program.fingerprint() {
+    let kinship = program.kinship(&profile.fingerprint);
+    if kinship == Kinship::Same {
         return match same_inputs {
-            true => Ok(Fitted { profile, warning: None }),
+            true => Ok(Fitted { profile, lost: None, aged: None }),
             false => {
                 let message = format!("is damaged: these are not the inputs of `{}`", program.name);
-                refuse(codes::BAD_PROFILE, message, "make it again")
+                refuse(codes::BAD_PROFILE, message, &again(program, &profile, name))
             }
         };
     }
-    let changed = format!("{name}: was counted with another text of the table `{}`", program.name);
+    let again = again(program, &profile, name);
     if same_inputs {
-        let warning = Diagnostic::warning(codes::OLD_PROFILE, changed)
-            .help("the discrete inputs are the same, so every count stands; nothing is lost");
+        let aged = match kinship {
+            Kinship::Same => None,
+            Kinship::Other => Some("when the table meant something else"),
+            Kinship::Unknown => Some("by another version of umbrage, perhaps when the table meant something else"),
+        };
+        let aged = aged.map(|when| {
+            let message = format!("{name}: was counted {when}");
+            let aged = Diagnostic::warning(codes::OLD_PROFILE, message);
+            aged.help("the counts of states stand, those of cases are of that time").help(again)
+        });
         let profile = Profile { fingerprint: program.fingerprint(), ..profile };
-        return Ok(Fitted { profile, warning: Some(warning) });
+        return Ok(Fitted { profile, lost: None, aged });
     }
     let (mapped, lost) = by_case(program, &profile);
     if counts_nothing(&mapped) {
         let message =
-            format!("was counted with another text of the table `{}`, and nothing of it is left", program.name);
-        return refuse(codes::OTHER_PROFILE, message, "count again with this table");
+            format!("was counted with other inputs of the table `{}`, and nothing of it is left", program.name);
+        return refuse(codes::OTHER_PROFILE, message, &again);
     }
     let total = profile.total();
     let gone: u64 = lost.values().sum();
-    let mut warning = Diagnostic::warning(codes::OLD_PROFILE, changed).help(format!(
-        "its inputs have changed: {} of {total} counts were mapped by the number of their case, {gone} ({:.1} %) were lost",
+    let message = format!("{name}: was counted with other inputs of the table `{}`, and is used in part", program.name);
+    let mut warning = Diagnostic::warning(codes::OLD_PROFILE, message).help(format!(
+        "{} of {total} counts were mapped by the number of their case, {gone} ({:.1} %) were lost",
         total - gone,
         100.0 * gone as f64 / total as f64
     ));
@@ -87,7 +100,32 @@ pub fn fit(program: &Program, profile: Profile, name: &str) -> Result<Fitted, Fa
         let cases: Vec<String> = lost.iter().map(|(case, count)| format!("{} ({count})", case_name(*case))).collect();
         warning = warning.help(format!("never taken any more: {}", cases.join(", ")));
     }
-    Ok(Fitted { profile: mapped, warning: Some(warning.help("count again to be exact")) })
+    Ok(Fitted { profile: mapped, lost: Some(warning.help(again)), aged: None })
+}
+
+/// How to count again what a profile counted.
+///
+/// Scenes that come with Umbrage are rendered again by a command; what else was counted, only its owner has.
+fn again(program: &Program, profile: &Profile, name: &str) -> String {
+    let table = &program.source.name;
+    let first = profile.scenes.first();
+    let alike =
+        |scene: &Scene| first.is_some_and(|one| (&one.technique, &one.setting) == (&scene.technique, &scene.setting));
+    // `480x270, map 512, search limit 128`
+    let mut parts = first.map_or("", |scene| scene.setting.as_str()).split(", ");
+    let size = parts.next().filter(|size| size.contains('x'));
+    let map = parts.next().and_then(|map| map.strip_prefix("map "));
+    let (Some(scene), Some(size), Some(map)) = (first.filter(|_| profile.scenes.iter().all(alike)), size, map) else {
+        return format!(
+            "to count again: capture its inputs again, and `umbrage profile --table {table} --frames FILE`"
+        );
+    };
+    let names: Vec<&str> = profile.scenes.iter().map(|scene| scene.name.as_str()).collect();
+    format!(
+        "to count again: `umbrage profile --scene {} --technique {} --table {table} --size {size} --shadow-map {map} -o {name}`",
+        names.join(","),
+        scene.technique
+    )
 }
 
 /// A case in words.
@@ -231,13 +269,13 @@ mod tests {
     }
 
     fn help(fitted: &Fitted) -> Vec<String> {
-        fitted.warning.as_ref().expect("a warning").notes.clone()
+        fitted.lost.as_ref().expect("a warning").notes.clone()
     }
 
     #[test]
     fn the_same_table_and_another_one() {
         let fitted = fit(&smsr(), some(), "p.ron").expect("fits");
-        assert_eq!((fitted.warning.is_none(), &fitted.profile), (true, &some()));
+        assert_eq!((fitted.lost.is_none(), fitted.aged.is_none(), &fitted.profile), (true, true, &some()));
         let mut other = some();
         other.table = "rsmss".to_owned();
         let failure = fit(&smsr(), other, "p.ron").expect_err("refused");
@@ -250,10 +288,41 @@ mod tests {
 
     #[test]
     fn counts_stand_while_the_inputs_are_the_same() {
-        let program = parsed(smsr().source.text.clone() + "// One comment more.\n");
+        let counted = smsr().source.text.clone();
+        let program = parsed(counted.clone() + "// One comment more.\n");
         let fitted = fit(&program, some(), "p.ron").expect("fits");
-        assert_eq!(fitted.profile.scenes, some().scenes);
-        assert_eq!(help(&fitted), ["the discrete inputs are the same, so every count stands; nothing is lost"]);
+        assert_eq!((fitted.lost.is_none(), fitted.aged.is_none()), (true, true));
+
+        let program = parsed(counted.replace("id: 1,", "id: 101,"));
+        let older = Profile { fingerprint: "fnv1a 3e82e40ab73226cb".to_owned(), ..some() };
+        for (profile, when) in [
+            (some(), "when the table meant something else"),
+            (older, "by another version of umbrage, perhaps when the table meant something else"),
+        ] {
+            let fitted = fit(&program, profile, "p.ron").expect("fits");
+            assert_eq!((fitted.lost.is_none(), &fitted.profile.scenes), (true, &some().scenes));
+            assert_eq!(fitted.profile.fingerprint, program.fingerprint());
+            let aged = fitted.aged.expect("a warning");
+            assert_eq!(aged.message, format!("p.ron: was counted {when}"));
+            assert_eq!(aged.notes[0], "the counts of states stand, those of cases are of that time");
+        }
+    }
+
+    /// The command that counts again is the one that counted, as far as it is known.
+    #[test]
+    fn what_was_rendered_can_be_counted_again() {
+        let program = smsr();
+        let mut profile = some();
+        let frames =
+            "to count again: capture its inputs again, and `umbrage profile --table tables/smsr.ron --frames FILE`";
+        assert_eq!(again(&program, &profile, "p.ron"), frames);
+        profile.scenes.push(scene("slope", &[(1, 1)], &[(Some(1), 1)]));
+        profile.scenes.iter_mut().for_each(|scene| scene.setting = "480x270, map 512, search limit 128".to_owned());
+        let command = "umbrage profile --scene fence,slope --technique smsr --table tables/smsr.ron --size 480x270 \
+                       --shadow-map 512 -o p.ron";
+        assert_eq!(again(&program, &profile, "p.ron"), format!("to count again: `{command}`"));
+        profile.scenes[1].setting = "96x54, map 512, search limit 128".to_owned();
+        assert_eq!(again(&program, &profile, "p.ron"), frames);
     }
 
     #[test]
@@ -268,9 +337,9 @@ mod tests {
         assert_eq!(
             help(&fitted),
             [
-                "its inputs have changed: 90 of 100 counts were mapped by the number of their case, 10 (10.0 %) were lost",
+                "90 of 100 counts were mapped by the number of their case, 10 (10.0 %) were lost",
                 "never taken any more: case 1 (10)",
-                "count again to be exact"
+                &again(&program, &some(), "p.ron"),
             ]
         );
     }

@@ -32,7 +32,7 @@ pub use summary::{Change, Frequency, changes, frequencies, shares, total_variati
 pub struct Profile {
     /// Name of the table.
     pub table: String,
-    /// Fingerprint of the table's text when it was counted.
+    /// Fingerprint of the table's meaning when it was counted.
     pub fingerprint: String,
     /// The inputs that make up a state, in order, the last one varying fastest.
     pub inputs: Vec<StateInput>,
@@ -165,7 +165,7 @@ impl Profile {
             return Err(format!("one is a profile of the table `{}`, one of `{}`", self.table, other.table));
         }
         if self.fingerprint != other.fingerprint || self.inputs != other.inputs {
-            return Err(format!("they were made of different texts of the table `{}`", self.table));
+            return Err(format!("the table `{}` did not mean the same when they were counted", self.table));
         }
         for scene in &other.scenes {
             let scene = Scene { weight: scene.weight * weight, ..scene.clone() };

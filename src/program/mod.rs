@@ -24,6 +24,7 @@ pub mod draw;
 #[cfg(test)]
 mod enumerated;
 mod lower;
+mod meaning;
 pub(crate) mod normal;
 pub mod operators;
 mod ops;
@@ -46,6 +47,7 @@ use crate::table::{Allow, Erratum, HitPolicy, Table};
 pub use data_type::{Component, DataType, Scalar};
 pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 pub use lower::{LevelTerm, Signature, signatures};
+pub use meaning::Kinship;
 pub use operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 pub use ops::Real;
 pub use output::{Output, Reading};
@@ -406,11 +408,6 @@ impl Program {
             Domain::Discrete(levels) => Some(levels),
             Domain::Continuous { .. } => None,
         }
-    }
-
-    /// Names the very text that this program was read from, as generated files do.
-    pub fn fingerprint(&self) -> String {
-        format!("fnv1a {:016x}", self.source.fingerprint())
     }
 
     /// The line of the source that a place is on, counted from 1.

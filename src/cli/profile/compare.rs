@@ -47,7 +47,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         return Ok(Outcome::Clean);
     }
     if before.fingerprint != after.fingerprint {
-        writeln!(out, "the profiles were counted with different texts of the table `{}`", before.table)?;
+        writeln!(out, "the table `{}` did not mean the same when the profiles were counted", before.table)?;
     }
     writeln!(out, "     case   before    after   change")?;
     for change in &found {

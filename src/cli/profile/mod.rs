@@ -173,7 +173,7 @@ pub(super) fn read_all(files: &[PathBuf], weights: &[f64]) -> std::result::Resul
         let merged = all.get_or_insert_with(|| Profile { scenes: Vec::new(), ..profile.clone() });
         merged.merge(&profile, weights.get(index).copied().unwrap_or(1.0)).map_err(|reason| {
             let error = Diagnostic::error(codes::OTHER_PROFILE, format!("does not go with the others: {reason}"));
-            Failure::bare(shown(file), error.help("take profiles of one table, counted with the same text of it"))
+            Failure::bare(shown(file), error.help("take profiles of one table, counted while it meant the same"))
         })?;
     }
     all.ok_or_else(|| {

@@ -9,7 +9,7 @@ use super::{excluded, read_all};
 use crate::cli::input::has_extension;
 use crate::cli::messages::{Format, Report};
 use crate::cli::output::{Sink, stdout};
-use crate::cli::{Outcome, Result};
+use crate::cli::{Outcome, Result, profiled};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture;
 use crate::profile::{Frequency, Profile, chart, fit, frequencies};
@@ -41,8 +41,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         let table = Program::read(table)?;
         let name = shown(&arguments.profiles[0]);
         let fitted = fit(&table, profile, &name)?;
-        if let Some(warning) = &fitted.warning {
-            report.failure(&Failure::bare("", warning.clone()));
+        if profiled::say(&fitted, report) {
             outcome = Outcome::Findings;
         }
         if excluded(&table, &fitted, report) {
