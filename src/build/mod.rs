@@ -117,23 +117,15 @@ impl Wanted {
 
 /// The plans to make of a table, each once.
 fn wanted(program: &Program, options: &Options) -> Vec<Wanted> {
-    let mut wanted: Vec<Wanted> = Vec::new();
-    let mut want = |shape: Shape, assume: bool| {
-        let place = wanted.iter().position(|plan| plan.shape == shape && plan.assume == assume);
-        let place = place.unwrap_or_else(|| {
-            wanted.push(Wanted { shape, assume, chosen_on: Vec::new(), fallback: None });
-            wanted.len() - 1
-        });
-        &mut wanted[place]
-    };
+    let mut wanted = Vec::new();
     for shape in &options.shapes {
-        want(*shape, options.assume);
+        want(&mut wanted, *shape, options.assume);
     }
     if options.auto {
         let tuned = options.tuned.iter().map(|tuned| (Auto::of(program, Some(tuned)), tuned.device.as_str()));
         let (chosen, not): (Vec<_>, Vec<_>) = tuned.partition(|(auto, _)| auto.fallback.is_none());
         for (auto, device) in &chosen {
-            want(auto.shape, auto.assume).chosen_on.push((*device).to_owned());
+            want(&mut wanted, auto.shape, auto.assume).chosen_on.push((*device).to_owned());
         }
         if chosen.is_empty() {
             let mut reasons: Vec<String> =
@@ -142,10 +134,19 @@ fn wanted(program: &Program, options: &Options) -> Vec<Wanted> {
             if reasons.is_empty() {
                 reasons.push(Fallback::Untuned.to_string());
             }
-            want(Auto::of(program, None).shape, options.assume).fallback = Some(reasons.join("; "));
+            want(&mut wanted, Auto::of(program, None).shape, options.assume).fallback = Some(reasons.join("; "));
         }
     }
     wanted
+}
+
+/// The plan of a shape among those wanted, which it may be already.
+fn want(wanted: &mut Vec<Wanted>, shape: Shape, assume: bool) -> &mut Wanted {
+    let place = wanted.iter().position(|plan| plan.shape == shape && plan.assume == assume).unwrap_or(wanted.len());
+    if place == wanted.len() {
+        wanted.push(Wanted { shape, assume, chosen_on: Vec::new(), fallback: None });
+    }
+    &mut wanted[place]
 }
 
 /// Proves, emits and validates what [`Program::read_all`] reads from a table

@@ -12,6 +12,7 @@ mod functions;
 mod integrals;
 mod render;
 mod report;
+mod stale;
 #[path = "../support/mod.rs"]
 mod support;
 mod tables;

@@ -1,10 +1,14 @@
 //! Tables in a build script, as a user has them: the example of `docs/build.md`
 //! in a crate of its own, compiled without optimisation and without a network.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::time::SystemTime;
+
+use umbrage::profile::{self, Profile, Scene};
+use umbrage::program::Program;
 
 /// The crate, in a place that stays, so that only the first run builds Umbrage for it.
 struct Roof(PathBuf);
@@ -155,6 +159,39 @@ fn the_documented_example_works_and_notices_what_changes() {
     assert!(said.contains("warning: roof@0.1.0: tables/large.ron:"), "findings are warnings: {said}");
     assert_eq!(Roof::written("snow/ordered.rs"), before);
     assert!(Roof::made()[0].join("large/ordered.330.glsl").exists());
+
+    // A directory that was not there, watched without building again and again.
+    let (_, said) = roof.succeeds(&["build"]);
+    assert!(!said.contains("Compiling"), "{said}");
+    let program = Program::read(roof.0.join("tables/snow.ron")).unwrap();
+    let mut profile = Profile::new(&program);
+    let states = BTreeMap::from([(0, 7)]);
+    let (name, cases) = ("winter".to_owned(), BTreeMap::from([(None, 7)]));
+    let (technique, setting) = ("snow".to_owned(), "captured".to_owned());
+    profile.scenes.push(Scene { name, technique, setting, weight: 1.0, states, cases, tiles: None });
+    roof.file("profiles/snow.ron", &profile::to_ron(&profile));
+    roof.succeeds(&["build"]);
+    let ordered = || std::fs::read_to_string(Roof::made()[0].join("snow/ordered.wgsl")).unwrap();
+    assert!(ordered().contains("// Weight: profile snow.ron, 7 evaluations of winter"), "{}", ordered());
+    let (_, said) = roof.succeeds(&["build"]);
+    assert!(!said.contains("Compiling"), "{said}");
+
+    // A broken profile: the command in the message finds the same.
+    roof.file("profiles/snow.ron", "Profile(");
+    let output = roof.cargo(&["build"]);
+    let said = text(&output.stderr);
+    assert!(!output.status.success() && said.contains("error[U0611]: "), "{said}");
+    let hint = said.split('`').find(|part| part.starts_with("umbrage profile show ")).expect("a hint");
+    let mut words = hint.split(' ').skip(1);
+    let output = Command::new(env!("CARGO_BIN_EXE_umbrage")).args(&mut words).current_dir(&roof.0).output().unwrap();
+    assert!(text(&output.stderr).contains("error[U0611]: "), "{}", text(&output.stderr));
+
+    // What is not made any more is removed: of a table, and the plan for a profile.
+    std::fs::remove_dir_all(roof.0.join("profiles")).unwrap();
+    std::fs::rename(roof.0.join("tables/large.ron"), roof.0.join("tables/larger.txt")).unwrap();
+    roof.succeeds(&["build"]);
+    assert!(!ordered().contains("// Weight: ") && !Roof::made()[0].join("large").exists());
+    let before = Roof::written("snow/ordered.rs");
 
     // Mistakes in two tables: both are told, and what was there stays.
     roof.file("tables/large.ron", "Table(");
