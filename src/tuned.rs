@@ -146,7 +146,7 @@ pub enum Fallback {
         /// The device on which it was tuned.
         device: String,
     },
-    /// Whether the table has changed since cannot be told.
+    /// It cannot be told if the table has changed since.
     Unknown {
         /// The device on which it was tuned.
         device: String,
@@ -184,7 +184,7 @@ impl Fallback {
     }
 }
 
-/// How to tune a table on a device, with the profile that lies beside the directory of choices.
+/// The way to tune a table on a device, with the profile that lies beside the directory of choices.
 pub fn tune(program: &Program, device: &str, directory: &Path) -> String {
     let table = &program.source.name;
     let profile = directory.with_file_name("profiles").join(format!("{}.ron", program.name));

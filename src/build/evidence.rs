@@ -91,7 +91,7 @@ impl Choices {
         self.all.iter().filter(here)
     }
 
-    /// What is to be said about a table: choices that are not used, and a device on which nothing was tuned. Warnings.
+    /// The warnings about a table: choices that are not used, and a device on which nothing was tuned.
     pub fn unused(&self, program: &Program) -> Vec<Diagnostic> {
         let instead = Auto::of(program, None).shape;
         let unused = |tuned: &Tuned| tuned.choice(program).err()?.diagnostic(program, instead, &self.directory);
@@ -149,7 +149,7 @@ pub fn weigh(program: &Program, profiles: &[NamedProfile], options: &mut Options
     Ok(fitted.lost.into_iter().collect())
 }
 
-/// What is to be said about a profile that lies where that of a table is looked for, and counts another one.
+/// The warning about a profile that lies where that of a table is looked for, and counts another one.
 pub fn misplaced(table: &str, (path, profile): &NamedProfile) -> Option<Diagnostic> {
     if profile.table == table {
         return None;
@@ -164,7 +164,7 @@ pub fn misplaced(table: &str, (path, profile): &NamedProfile) -> Option<Diagnost
     })
 }
 
-/// What is to be said about profiles in a directory that are called like none of the tables.
+/// The warnings about profiles in a directory that are called like none of the tables.
 ///
 /// # Errors
 /// When the directory cannot be read.

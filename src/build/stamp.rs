@@ -39,7 +39,7 @@ pub(super) struct Fresh {
     pub(super) absent: BTreeSet<PathBuf>,
 }
 
-/// What a run made, and from what.
+/// The files of a run, and everything they depend on.
 pub(super) struct Made<'a> {
     pub(super) request: &'a Request,
     pub(super) output: &'a Path,
@@ -236,7 +236,7 @@ mod tests {
         assert_eq!(fresh(&request), None, "another table");
     }
 
-    /// What is not made any more goes; what another compilation of the script makes, or somebody has changed, stays.
+    /// Files that are not made any more go; those of another compilation of the script, and those that somebody has changed, stay.
     #[test]
     fn what_is_not_made_any_more_is_removed() {
         let (place, copies) = (or_panic(tempfile::tempdir()), or_panic(tempfile::tempdir()));

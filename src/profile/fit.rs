@@ -20,7 +20,7 @@ use crate::program::{Assumption, Domain, Kinship, Program, Value, can_occur, rea
 pub struct Fitted {
     /// The profile, of this table.
     pub profile: Profile,
-    /// What was lost on the way, if the inputs of the table have changed: a warning.
+    /// The loss on the way, if the inputs of the table have changed: a warning.
     pub lost: Option<Diagnostic>,
     /// Set if only the counts of cases, which no plan depends on, may be those of an older table: a warning for whoever
     /// looks at them.
@@ -103,7 +103,7 @@ pub fn fit(program: &Program, profile: Profile, name: &str) -> Result<Fitted, Fa
     Ok(Fitted { profile: mapped, lost: Some(warning.help(again)), aged: None })
 }
 
-/// How to count again what a profile counted.
+/// The way to count again what a profile counted.
 ///
 /// Scenes that come with Umbrage are rendered again by a command; what else was counted, only its owner has.
 fn again(program: &Program, profile: &Profile, name: &str) -> String {

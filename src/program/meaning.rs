@@ -61,7 +61,7 @@ fn prefix() -> String {
     format!("meaning {VERSION} ")
 }
 
-/// What is hashed of one thing: a word for its kind, and words and hashes for its parts.
+/// The bytes that are hashed of one thing: a word for its kind, and words and hashes for its parts.
 struct Words(Vec<u8>);
 
 impl Words {

@@ -45,7 +45,7 @@ impl<'a> Layout<'a> {
         Self { text, tokens: tokens.collect() }
     }
 
-    /// Where the first token begins.
+    /// The place of the first token.
     pub(crate) fn start(&self) -> usize {
         self.tokens.first().map_or(0, |(_, span)| span.start)
     }
