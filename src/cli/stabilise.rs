@@ -38,7 +38,9 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let name = arguments.table.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let summary = summary(&name, &stabilised, &certificates);
     let head: String = summary.lines().map(|line| format!("{}\n", format!("// {line}").trim_end())).collect();
-    let text = format!("{head}{}", stabilised.text);
+    // Remarks of the table's author stand apart.
+    let gap = if stabilised.text.starts_with('/') { "\n" } else { "" };
+    let text = format!("{head}{gap}{}", stabilised.text);
     let to_file = arguments.output.as_os_str() != "-";
     let said = match report.format {
         Format::Json => {

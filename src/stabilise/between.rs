@@ -12,6 +12,7 @@
 //! and what does not depend on `x` is gone. Where the antiderivative was
 //! divided by `a`, the factor `a` on the right cancels it: no division is left.
 
+use super::kernel::SINC;
 use super::poly::{Atom, Mono, Poly, multiply};
 use crate::program::rational::Rational;
 
@@ -55,7 +56,7 @@ fn term(inside: &Mono, variable: &str, mid: &Poly, half: &Poly) -> Option<Poly> 
             };
             let product = reach.times_number(Rational::whole(2 * sign))?;
             let difference =
-                product.times(&Poly::fun(other, at_mid.clone()))?.times(&Poly::fun("sinc", reach.clone()))?;
+                product.times(&Poly::fun(other, at_mid.clone()))?.times(&Poly::fun(SINC, reach.clone()))?;
             if power == 0 {
                 return Some(difference);
             }

@@ -16,6 +16,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
+use super::kernel::SINC;
+use super::names::Taken;
 use super::poly::{Atom, Mono, Poly};
 use super::print::Printer;
 use super::read::Bounds;
@@ -28,9 +30,9 @@ const RULES: [usize; 3] = [4, 8, 16];
 /// The part that may be left out, relative to the amplitude.
 const LEFT_OUT: f64 = 1.0 / 16_777_216.0;
 
-/// Name of the list of nodes and weights.
-fn rule_name(count: usize) -> String {
-    format!("gauss_{count}")
+/// Names of the lists of nodes and weights, one for each rule.
+pub(super) fn rules(taken: &mut Taken) -> [String; 3] {
+    RULES.map(|count| taken.free_everywhere(&[&format!("gauss_{count}"), &format!("gauss_rule_{count}")]))
 }
 
 /// Nodes and weights on [-1, 1], by Newton's method on the Legendre polynomial.
@@ -78,9 +80,9 @@ fn good_to(count: usize) -> f64 {
 }
 
 /// The rules as constants of a table.
-pub(super) fn constants(indent: &str) -> String {
+pub(super) fn constants(rules: &[String; 3], indent: &str) -> String {
     let mut text = String::new();
-    for count in RULES {
+    for (count, name) in RULES.into_iter().zip(rules) {
         let _ = writeln!(
             text,
             "{indent}// Nodes and weights of the Gauss-Legendre rule with {count} nodes: off by at most 2^-24 of the\n\
@@ -89,14 +91,14 @@ pub(super) fn constants(indent: &str) -> String {
         );
         let nodes: Vec<String> = rule(count).iter().map(|(x, weight)| format!("({x}, {weight})")).collect();
         let lines: Vec<String> = nodes.chunks(2).map(|two| two.join(", ")).collect();
-        let _ = writeln!(text, "{indent}\"{}\": [{}],", rule_name(count), lines.join(&format!(",\n{indent}    ")));
+        let _ = writeln!(text, "{indent}\"{name}\": [{}],", lines.join(&format!(",\n{indent}    ")));
     }
     text
 }
 
 /// A density as a helper of the table, with its name in front: its declaration, and how to call it.
-pub(super) fn helper(name: &str, density: &Density, names: &Names, indent: &str) -> String {
-    let printer = Printer { group_by: &[] };
+pub(super) fn helper(name: &str, density: &Density, names: &Names, sinc: &str, indent: &str) -> String {
+    let printer = Printer { group_by: &[], sinc };
     format!(
         "{indent}// What is integrated: the sides are {sum} + {difference} and {sum} - {difference}.\n\
          {indent}\"{name}({variables})\": \"\n\
@@ -122,24 +124,35 @@ fn parameters(density: &Density, names: &Names) -> Vec<String> {
     all
 }
 
-/// The integral by the rule that is good enough, or by `closed` where none is; `turn` and `node` are names.
+/// What an integral calls things.
+pub(super) struct Called<'a> {
+    /// The density.
+    pub(super) helper: &'a str,
+    /// How far it turns.
+    pub(super) turn: &'a str,
+    /// A node and its weight.
+    pub(super) node: &'a str,
+    /// The lists of nodes and weights.
+    pub(super) rules: &'a [String; 3],
+}
+
+/// The integral by the rule that is good enough, or by `closed` where none is.
 pub(super) fn integral(
-    helper: &str,
+    called: &Called<'_>,
     density: &Density,
     names: &Names,
     bounds: &Bounds,
     closed: &str,
-    (turn, node): (&str, &str),
 ) -> (String, String) {
+    let Called { helper, turn, node, rules } = called;
     let Bounds { mid, half, .. } = bounds;
     let turns = format!("let {turn} = abs({half}) * {};", speed(&density.speed));
     let mut text = String::new();
-    for count in RULES {
+    for (count, rule) in RULES.into_iter().zip(*rules) {
         let _ = write!(
             text,
-            "if {turn} < {} {{ {half} * sum({node} in {}, {node}.y * {helper}({} = {mid} + {half} * {node}.x)) }} else ",
+            "if {turn} < {} {{ {half} * sum({node} in {rule}, {node}.y * {helper}({} = {mid} + {half} * {node}.x)) }} else ",
             good_to(count),
-            rule_name(count),
             names.variable,
         );
     }
@@ -157,7 +170,7 @@ fn speed(speed: &BTreeMap<Mono, Rational>) -> String {
         });
         let _ = sum.add_term(sized.collect(), *by);
     }
-    let text = Printer { group_by: &[] }.sum(&sum);
+    let text = Printer { group_by: &[], sinc: SINC }.sum(&sum);
     if sum.0.len() > 1 { format!("({text})") } else { text }
 }
 

@@ -11,6 +11,7 @@
 
 use std::collections::BTreeMap;
 
+use super::names::Taken;
 use super::poly::{Atom, Mono, Poly, multiply};
 use super::series::{ORDER, series};
 use crate::program::rational::Rational;
@@ -48,9 +49,19 @@ pub(super) struct Kernel {
     pub(super) bounds: (f64, f64),
 }
 
+/// The name that the rules have for sin(x)/x. In the table it may have another one.
+pub(super) const SINC: &str = "sinc";
+
 /// The kernels of a table, each once.
-#[derive(Debug, Default)]
-pub(super) struct Kernels(pub(super) Vec<Kernel>);
+#[derive(Debug)]
+pub(super) struct Kernels {
+    pub(super) all: Vec<Kernel>,
+    /// The name of sin(x)/x in the table.
+    pub(super) sinc: String,
+    /// The name of the variable of each.
+    pub(super) variable: String,
+    taken: Taken,
+}
 
 /// A quantity that kernels are functions of.
 #[derive(Debug, Clone)]
@@ -62,14 +73,21 @@ pub(super) struct Argument {
 }
 
 impl Kernels {
+    /// None yet, in a table where these names are taken.
+    pub(super) fn new(taken: &mut Taken) -> Self {
+        let sinc = taken.free_everywhere(&[SINC, "sine_over"]);
+        let variable = taken.free_parameter(&["x", "z"]);
+        Self { all: Vec::new(), sinc, variable, taken: taken.clone() }
+    }
+
     /// The kernel sin(x)/x.
     pub(super) fn sinc(&mut self) -> Option<String> {
         let sine = Term { factor: Rational::ONE, power: 0, functions: vec![("sin".to_owned(), Rational::ONE)] };
         self.kernel(vec![sine], 1, 0).map(|(name, _)| name)
     }
 
-    /// The kernel of a sum whose terms have no negative powers, divided by x^`divisor`: its name and what it
-    /// was divided by to be 1 at 0.
+    /// The kernel of a sum whose terms have no negative powers, divided by x^`divisor`: the name that the rules have
+    /// for it, and what it was divided by to be 1 at 0.
     fn kernel(&mut self, terms: Vec<Term>, divisor: usize, skip: usize) -> Option<(String, Rational)> {
         let all = series(&terms)?;
         let lead = *all.get(divisor + skip)?;
@@ -77,20 +95,20 @@ impl Kernels {
         let terms: Vec<Term> =
             terms.into_iter().map(|t| Some(Term { factor: scaled(t.factor)?, ..t })).collect::<Option<_>>()?;
         let divisor = (divisor + skip) as i32;
-        if let Some(known) = self.0.iter().find(|known| known.terms == terms && known.divisor == divisor) {
-            return Some((known.name.clone(), lead));
+        let is_sinc =
+            divisor == 1 && matches!(terms.as_slice(), [t] if t.functions == [("sin".to_owned(), Rational::ONE)]);
+        let of_rules = |name: &str| if is_sinc { SINC.to_owned() } else { name.to_owned() };
+        if let Some(known) = self.all.iter().find(|known| known.terms == terms && known.divisor == divisor) {
+            return Some((of_rules(&known.name), lead));
         }
         let coefficients: Vec<Rational> = all[divisor as usize..].iter().map(|c| scaled(*c)).collect::<Option<_>>()?;
         let (count, threshold, bounds) = switch(&terms, divisor, &coefficients);
-        let is_sinc =
-            divisor == 1 && matches!(terms.as_slice(), [t] if t.functions == [("sin".to_owned(), Rational::ONE)]);
-        let name = match self.0.iter().filter(|known| known.name != "sinc").count() {
-            _ if is_sinc => "sinc".to_owned(),
-            number => format!("kernel_{}", (b'a' + number as u8 % 26) as char),
-        };
+        let letters: Vec<String> = ('a'..='z').map(|letter| format!("kernel_{letter}")).collect();
+        let letters: Vec<&str> = letters.iter().map(String::as_str).collect();
+        let name = if is_sinc { self.sinc.clone() } else { self.taken.free_everywhere(&letters) };
         let series = coefficients[..count].to_vec();
-        self.0.push(Kernel { name: name.clone(), terms, divisor, series, threshold, bounds });
-        Some((name, lead))
+        self.all.push(Kernel { name: name.clone(), terms, divisor, series, threshold, bounds });
+        Some((of_rules(&name), lead))
     }
 }
 
@@ -173,7 +191,7 @@ fn group(mut terms: Vec<Term>, argument: &Argument, kernels: &mut Kernels) -> Op
     // sin(x)/x is written out, so that it can cancel against other terms.
     for term in &mut terms {
         for (name, rate) in &mut term.functions {
-            if name == "sinc" {
+            if name == SINC {
                 *name = "sin".to_owned();
                 term.power -= 1;
                 term.factor = term.factor.over(*rate)?;
@@ -238,7 +256,7 @@ impl Pivot {
                     }
                 }
                 (_, Atom::Fun(name, arguments)) if *exponent > 0 => {
-                    let known = matches!(name.as_str(), "sin" | "cos" | "exp" | "sinh" | "cosh" | "sinc");
+                    let known = matches!(name.as_str(), "sin" | "cos" | "exp" | "sinh" | "cosh" | SINC);
                     match arguments.as_slice() {
                         [inner] if known => match inner.ratio(argument) {
                             Some(rate) => (0..*exponent).for_each(|_| functions.push((name.clone(), rate))),

@@ -22,6 +22,7 @@ mod edit;
 mod gauss;
 mod integrand;
 mod kernel;
+mod names;
 mod poly;
 mod print;
 mod read;
@@ -34,9 +35,11 @@ mod trig;
 use std::collections::BTreeSet;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::program::Program;
 use crate::program::rational::Rational;
 use crate::table::{Function, FunctionBody, Table};
-use kernel::{Argument, Kernels};
+use kernel::{Argument, Kernels, SINC};
+use names::Taken;
 use poly::{Atom, Mono, Poly, multiply};
 use print::Printer;
 use read::{Bounds, Reader};
@@ -90,15 +93,33 @@ pub fn stabilise(table: &Table) -> Result<Stabilised, Failure> {
             .help("`stabilise` rewrites formulas of functions; `umbrage check` finds singularities of cases");
         return Err(Failure { source: table.source.clone(), diagnostics: vec![error] });
     }
-    let sides = Sides::of(table);
-    let mut added = Added::default();
+    // Rules are for tables that mean something.
+    Program::check_all(table)?;
+    let mut added = Added::to(table);
+    let (values, functions) = rewrite(table, &mut added);
+    let text = edit::apply(table, &values, &added).ok_or_else(|| {
+        let error = Diagnostic::error(codes::RON, "the text of the table cannot be taken apart");
+        Failure::new(table.source.clone(), error.help("`umbrage fmt` writes it in the usual layout"))
+    })?;
+    // What is written must mean something; an error here is a defect of the rules.
+    let stable = Table::parse(Source::new(format!("{} (stabilised)", table.source.name), text.clone()))?;
+    Program::check_all(&stable)?;
+    Ok(Stabilised { text, functions, kernels: added.kernels.all.into_iter().map(|kernel| kernel.name).collect() })
+}
+
+/// The new values of functions, and the outcome of each.
+type Rewritten<'t> = (Vec<(&'t Function, String)>, Vec<(String, Outcome)>);
+
+/// Finds new values.
+fn rewrite<'t>(table: &'t Table, added: &mut Added) -> Rewritten<'t> {
+    let sides = Sides::of(table, &added.taken);
     let mut values = Vec::new();
     let mut functions = Vec::new();
     for function in &table.functions {
-        let outcome = match closed_form(table, function, &mut added.kernels) {
+        let outcome = match closed_form(table, function, added) {
             Err(reason) => Outcome::Left(reason),
             Ok(closed) => {
-                let integral = if sides.take(function) { integral(table, function, &closed, &mut added) } else { None };
+                let integral = if sides.take(function) { integral(table, function, &closed, added) } else { None };
                 match (integral, closed) {
                     (Some(integral), _) => {
                         values.push((function, integral.text()));
@@ -114,18 +135,28 @@ pub fn stabilise(table: &Table) -> Result<Stabilised, Failure> {
         };
         functions.push((function.name.value.clone(), outcome));
     }
-    let text = edit::apply(table, &values, &added);
-    // What is written must mean something; an error here is a defect of the rules.
-    Table::parse(Source::new(format!("{} (stabilised)", table.source.name), text.clone()))?;
-    Ok(Stabilised { text, functions, kernels: added.kernels.0.into_iter().map(|kernel| kernel.name).collect() })
+    (values, functions)
 }
 
 /// The additions to the new table besides new formulas.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Added {
     kernels: Kernels,
     /// Densities, as text.
     densities: Vec<String>,
+    /// Names of the lists of nodes that they are integrated with.
+    rules: [String; 3],
+    /// The names that are in use.
+    taken: Taken,
+}
+
+impl Added {
+    /// Nothing yet.
+    fn to(table: &Table) -> Self {
+        let mut taken = Taken::by(table);
+        let rules = gauss::rules(&mut taken);
+        Self { kernels: Kernels::new(&mut taken), densities: Vec::new(), rules, taken }
+    }
 }
 
 /// A formula as text.
@@ -149,8 +180,8 @@ struct Sides<'t> {
 }
 
 impl<'t> Sides<'t> {
-    fn of(table: &'t Table) -> Self {
-        let subtracts = |f: &&Function| density(table, f, &mut Kernels::default()).is_some();
+    fn of(table: &'t Table, taken: &Taken) -> Self {
+        let subtracts = |f: &&Function| density(table, f, &mut Kernels::new(&mut taken.clone()), taken).is_some();
         Self { table, subtract: table.functions.iter().filter(subtracts).map(|f| f.name.value.as_str()).collect() }
     }
 
@@ -168,38 +199,29 @@ impl<'t> Sides<'t> {
 }
 
 /// The integrand of a function that is one side less another.
-fn density(table: &Table, function: &Function, kernels: &mut Kernels) -> Option<(Density, Names, Bounds)> {
+fn density(
+    table: &Table,
+    function: &Function,
+    kernels: &mut Kernels,
+    taken: &Taken,
+) -> Option<(Density, Names, Bounds)> {
+    let mut reader = Reader::new(table, taken);
     let names = Names {
-        variable: free(table, &["x", "at", "along"]),
-        sum: free(table, &["sigma", "half_sum", "sum_of_sides"]),
-        difference: free(table, &["delta", "half_difference", "difference_of_sides"]),
+        variable: reader.taken.free(&["x", "at", "along"]),
+        sum: reader.taken.free(&["sigma", "half_sum", "sum_of_sides"]),
+        difference: reader.taken.free(&["delta", "half_difference", "difference_of_sides"]),
     };
-    let mut reader = Reader::new(table);
     let (f, bounds) = integrand::integrand(&mut reader, function, &names.variable).ok()?;
     let density = sides::density(&f, &names, kernels)?;
     Some((density, names, reader.bounds.swap_remove(bounds)))
 }
 
-/// The first of these names that the table does not use; the last one at worst.
-fn free(table: &Table, names: &[&str]) -> String {
-    let known = |name: &str| {
-        table.inputs.iter().any(|i| i.name.value == name)
-            || table.names.iter().any(|n| n.name.value == name)
-            || table.constants.iter().any(|c| c.name.value == name)
-            || table.helpers.iter().any(|h| h.name.value == name)
-            || table.functions.iter().any(|f| f.name.value == name)
-    };
-    let found = names.iter().find(|name| !known(name)).or(names.last());
-    found.map_or_else(String::new, |name| (*name).to_owned())
-}
-
 /// A function as an integral of a product, by `closed` or as it is written where no rule is good enough.
 fn integral(table: &Table, function: &Function, closed: &Option<Formula>, added: &mut Added) -> Option<Formula> {
-    let (density, names, bounds) = density(table, function, &mut added.kernels)?;
+    let (density, names, bounds) = density(table, function, &mut added.kernels, &added.taken)?;
     let FunctionBody::Value(written) = &function.body else { return None };
-    let name = &function.name.value;
-    let helper = free(table, &[&format!("{name}_density"), &format!("{name}_of_sides"), &format!("{name}_integrand")]);
-    let (turn, node) = (free(table, &["turn", "turns", "turned"]), free(table, &["n", "node", "gauss_node"]));
+    let mut here = added.taken.clone();
+    let (turn, node) = (here.free(&["turn", "turns", "turned"]), here.free(&["n", "node", "gauss_node"]));
     let as_written = match closed {
         Some(closed) => closed.value.clone(),
         // A formula with names of its own keeps them.
@@ -209,9 +231,13 @@ fn integral(table: &Table, function: &Function, closed: &Option<Formula>, added:
         }
         None => return None,
     };
-    added.densities.push(gauss::helper(&helper, &density, &names, "        "));
-    let (turns, value) = gauss::integral(&helper, &density, &names, &bounds, &as_written, (&turn, &node));
-    let mut lets = bounds.text()?;
+    let name = &function.name.value;
+    let helper = added.taken.free_everywhere(&[&format!("{name}_density"), &format!("{name}_of_sides")]);
+    let sinc = &added.kernels.sinc;
+    added.densities.push(gauss::helper(&helper, &density, &names, sinc, "        "));
+    let called = gauss::Called { helper: &helper, turn: &turn, node: &node, rules: &added.rules };
+    let (turns, value) = gauss::integral(&called, &density, &names, &bounds, &as_written);
+    let mut lets = bounds.text(sinc)?;
     let others = closed.iter().flat_map(|closed| &closed.lets).filter(|l| !lets.contains(l));
     let others: Vec<String> = others.cloned().collect();
     lets.extend(others);
@@ -221,28 +247,30 @@ fn integral(table: &Table, function: &Function, closed: &Option<Formula>, added:
 
 impl Bounds {
     /// Mean and half difference, by their names.
-    fn text(&self) -> Option<Vec<String>> {
+    fn text(&self, sinc: &str) -> Option<Vec<String>> {
         let half = Poly::number(Rational::HALF);
         let (mean, reach) = (self.lo.plus(&self.hi)?.times(&half)?, self.hi.minus(&self.lo)?.times(&half)?);
-        let printer = Printer { group_by: &[self.mid.clone(), self.half.clone()] };
+        let printer = Printer { group_by: &[self.mid.clone(), self.half.clone()], sinc };
         let text = |(name, value): (&String, Poly)| format!("let {name} = {};", printer.sum(&value));
         Some([(&self.mid, mean), (&self.half, reach)].map(text).to_vec())
     }
 }
 
 /// The new formula of a function in closed form, if it needs one.
-fn closed_form(table: &Table, function: &Function, kernels: &mut Kernels) -> Result<Option<Formula>, String> {
+fn closed_form(table: &Table, function: &Function, added: &mut Added) -> Result<Option<Formula>, String> {
     if !read::is_singular(table, function) {
         return Ok(None);
     }
-    let mut reader = Reader::new(table);
+    let mut reader = Reader::new(table, &added.taken);
+    let kernels = &mut added.kernels;
+    let sinc = kernels.sinc.clone();
     let sum = reader.function(function)?;
     let too_large = || "it becomes too large".to_owned();
     let mut sum = sum.reduced().and_then(|sum| tame(&sum)).ok_or_else(too_large)?;
     let mut lets = Vec::new();
     let group_by: Vec<String> = reader.bounds.iter().flat_map(|b| [b.mid.clone(), b.half.clone()]).collect();
-    let printer = Printer { group_by: &group_by };
-    for argument in arguments(&sum, table) {
+    let printer = Printer { group_by: &group_by, sinc: &sinc };
+    for argument in arguments(&sum, &mut reader.taken) {
         let rewritten = kernel::extract(&sum, &argument, kernels);
         if let Some(rewritten) = rewritten.filter(|rewritten| *rewritten != sum) {
             if argument.value != Poly::var(&argument.name) {
@@ -251,14 +279,16 @@ fn closed_form(table: &Table, function: &Function, kernels: &mut Kernels) -> Res
             sum = rewritten;
         }
     }
-    if functions_of(&sum).iter().any(|(name, _)| name == "sinc") {
+    if functions_of(&sum).iter().any(|(name, _)| name == SINC) {
         kernels.sinc();
     }
     let mut all: Vec<String> = Vec::new();
     for bounds in &reader.bounds {
         let names = [&bounds.mid, &bounds.half];
-        let used = |name: &str| sum.mentions(name) || lets.iter().any(|l| l.contains(name));
-        let texts = bounds.text().ok_or_else(too_large)?;
+        let words =
+            |text: &str, name: &str| text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|w| w == name);
+        let used = |name: &str| sum.mentions(name) || lets.iter().any(|text| words(text, name));
+        let texts = bounds.text(&sinc).ok_or_else(too_large)?;
         all.extend(names.into_iter().zip(texts).filter(|(name, _)| used(name)).map(|(_, text)| text));
     }
     all.extend(lets);
@@ -312,12 +342,12 @@ fn functions_of(sum: &Poly) -> BTreeSet<(String, Poly)> {
 }
 
 /// The quantities that kernels may be functions of, each up to a factor.
-fn arguments(sum: &Poly, table: &Table) -> Vec<Argument> {
+fn arguments(sum: &Poly, taken: &mut Taken) -> Vec<Argument> {
     let reciprocals: BTreeSet<&Atom> =
         sum.0.keys().flat_map(|mono| mono.keys()).filter(|atom| matches!(atom, Atom::Over(_))).collect();
     let mut all: Vec<Argument> = Vec::new();
     for (name, argument) in functions_of(sum) {
-        if !matches!(name.as_str(), "sin" | "cos" | "exp" | "sinh" | "cosh" | "sinc") {
+        if !matches!(name.as_str(), "sin" | "cos" | "exp" | "sinh" | "cosh" | SINC) {
             continue;
         }
         let Some((shared, _, rest)) = argument.content() else { continue };
@@ -335,18 +365,12 @@ fn arguments(sum: &Poly, table: &Table) -> Vec<Argument> {
         if all.iter().any(|known| value.ratio(&known.value).is_some()) {
             continue;
         }
-        let taken = |name: &str| {
-            table.inputs.iter().any(|i| i.name.value == name)
-                || table.names.iter().any(|n| n.name.value == name)
-                || table.constants.iter().any(|c| c.name.value == name)
-                || all.iter().any(|a| a.name == name)
-        };
         let name = match (is_variable, value.single()) {
             (true, Some((mono, _))) => match mono.keys().next() {
                 Some(Atom::Var(variable)) => variable.clone(),
                 _ => continue,
             },
-            _ => ["y", "u", "arg"].into_iter().find(|name| !taken(name)).unwrap_or("quantity").to_owned(),
+            _ => taken.free(&["y", "u", "arg", "quantity"]),
         };
         all.push(Argument { value, name });
     }

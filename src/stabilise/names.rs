@@ -6,48 +6,79 @@ use crate::diag::Span;
 use crate::program::operators::Operator;
 use crate::table::expr::{Expr, ExprKind, SumOver};
 use crate::table::names::check;
-use crate::table::{Case, CaseBody, ConstantValue, FunctionBody, Table};
+use crate::table::{Case, CaseBody, ConstantValue, Function, FunctionBody, Table};
 
 /// The names that are in use.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Taken(BTreeSet<String>);
+pub(super) struct Taken {
+    names: BTreeSet<String>,
+    /// Names that values have within one function only. They go where it gets a new value.
+    bindings: BTreeSet<String>,
+    /// Names that the whole table sees, which a parameter of a helper would hide.
+    global: BTreeSet<String>,
+}
 
 impl Taken {
     /// Everything that a table declares or mentions, and all operators.
     pub(super) fn by(table: &Table) -> Self {
-        let mut taken = Self(Operator::functions().map(|(name, _)| name.to_owned()).collect());
+        let mut taken = Self::default();
+        Operator::functions().for_each(|(name, _)| taken.take(name));
+        let global = (table.names.iter().map(|named| &named.name))
+            .chain(table.imports.iter().map(|import| &import.alias))
+            .chain(table.constants.iter().map(|constant| &constant.name))
+            .chain(table.helpers.iter().map(|helper| &helper.name))
+            .chain(table.functions.iter().map(|function| &function.name));
+        taken.global = global.map(|name| name.value.clone()).collect();
+        taken.names.extend(taken.global.iter().cloned());
         let declared = (table.inputs.iter().map(|input| &input.name))
             .chain(table.levels.iter().map(|(name, _)| name))
             .chain(table.groups.iter().map(|group| &group.name))
-            .chain(table.names.iter().map(|named| &named.name))
-            .chain(table.imports.iter().map(|import| &import.alias))
-            .chain(table.constants.iter().map(|constant| &constant.name))
-            .chain(table.helpers.iter().flat_map(|helper| helper.parameters.iter().chain([&helper.name])))
-            .chain(table.functions.iter().flat_map(|function| {
-                let bindings = function.bindings.iter().map(|binding| &binding.name);
-                function.parameters.iter().chain(bindings).chain([&function.name])
-            }));
+            .chain(table.helpers.iter().flat_map(|helper| &helper.parameters))
+            .chain(table.functions.iter().flat_map(|function| &function.parameters));
         declared.for_each(|name| taken.take(&name.value));
-        for expr in expressions(table) {
-            taken.mentioned(expr);
+        expressions(table).into_iter().for_each(|expr| taken.mentioned(expr));
+        for function in &table.functions {
+            let mut here = Self::default();
+            of_function(function).into_iter().for_each(|expr| here.mentioned(expr));
+            for binding in &function.bindings {
+                here.names.remove(&binding.name.value);
+                taken.bindings.insert(binding.name.value.clone());
+            }
+            taken.names.append(&mut here.names);
         }
         taken
     }
 
-    /// The first of some names that is free, or else the first one with a number; it is taken from now on.
+    /// The first of some names that is free for a value within a function that gets a new value, or else the first one
+    /// with a number; it is taken from now on.
     pub(super) fn free(&mut self, names: &[&str]) -> String {
+        self.first(names, |_| true)
+    }
+
+    /// The same for something that the whole table sees.
+    pub(super) fn free_everywhere(&mut self, names: &[&str]) -> String {
+        let bindings = self.bindings.clone();
+        self.first(names, |name| !bindings.contains(name))
+    }
+
+    /// The first of some names that the parameter of a new helper may have.
+    pub(super) fn free_parameter(&self, names: &[&str]) -> String {
+        Self { names: self.global.clone(), ..Self::default() }.free(names)
+    }
+
+    fn first(&mut self, names: &[&str], suits: impl Fn(&String) -> bool) -> String {
         let numbered = (2_usize..).map(|number| format!("{}_{number}", names.first().unwrap_or(&"name")));
         let mut all = names.iter().map(|name| (*name).to_owned()).chain(numbered);
-        let admitted = |name: &String| !self.0.contains(name) && check(name, "a name", Span::default()).is_ok();
+        let admitted = |name: &String| !self.names.contains(name) && check(name, "a name", Span::default()).is_ok();
         // There is always a further number.
-        let name = all.find(admitted).unwrap_or_default();
-        self.0.insert(name.clone());
+        let name = all.find(|name| admitted(name) && suits(name)).unwrap_or_default();
+        self.names.insert(name.clone());
         name
     }
 
     /// Takes a name, of which every part may be meant.
     fn take(&mut self, name: &str) {
-        self.0.extend(name.split('.').map(str::to_owned));
+        self.names.extend(name.split('.').map(str::to_owned));
     }
 
     fn mentioned(&mut self, expr: &Expr) {
@@ -79,7 +110,7 @@ impl Taken {
     }
 }
 
-/// The expressions of a table of functions.
+/// The expressions of a table that are outside of its functions.
 fn expressions(table: &Table) -> Vec<&Expr> {
     let mut all: Vec<&Expr> = table.names.iter().map(|named| &named.value).collect();
     for constant in &table.constants {
@@ -88,20 +119,26 @@ fn expressions(table: &Table) -> Vec<&Expr> {
             ConstantValue::List(items) => all.extend(items.iter().flatten()),
         }
     }
-    all.extend(table.helpers.iter().flat_map(|helper| &helper.lines).flat_map(|line| {
-        line.condition.iter().chain([&line.value])
-    }));
-    for function in &table.functions {
-        all.extend(function.bindings.iter().map(|binding| &binding.value));
-        all.extend(function.domain.iter().map(|assumption| &assumption.condition));
-        all.extend(function.limits.iter().flat_map(|limit| limit.at.iter().map(|(_, at)| at).chain([&limit.value])));
-        all.extend(function.accuracy.iter().map(|accuracy| &accuracy.scale));
-        match &function.body {
-            FunctionBody::Value(value) => all.push(value),
-            FunctionBody::Cases { cases, default } => {
-                all.push(default);
-                all.extend(cases.iter().flat_map(of_case));
-            }
+    all.extend(
+        table
+            .helpers
+            .iter()
+            .flat_map(|helper| &helper.lines)
+            .flat_map(|line| line.condition.iter().chain([&line.value])),
+    );
+    all
+}
+
+fn of_function(function: &Function) -> Vec<&Expr> {
+    let mut all: Vec<&Expr> = function.bindings.iter().map(|binding| &binding.value).collect();
+    all.extend(function.domain.iter().map(|assumption| &assumption.condition));
+    all.extend(function.limits.iter().flat_map(|limit| limit.at.iter().map(|(_, at)| at).chain([&limit.value])));
+    all.extend(function.accuracy.iter().map(|accuracy| &accuracy.scale));
+    match &function.body {
+        FunctionBody::Value(value) => all.push(value),
+        FunctionBody::Cases { cases, default } => {
+            all.push(default);
+            all.extend(cases.iter().flat_map(of_case));
         }
     }
     all
@@ -129,10 +166,13 @@ mod tests {
             functions: {"f": Function(parameters: ["x"], let: {"d": "x"}, value: "h(d) + sum(s in l, s.x) + (t | t = 0 .. c)")})"#;
         let table = Table::parse(Source::new("t.ron", text)).unwrap_or_else(|e| panic!("{e}"));
         let mut taken = Taken::by(&table);
-        for name in ["x", "n", "c", "l", "h", "a", "b", "f", "d", "s", "t", "sin", "mix"] {
+        for name in ["x", "n", "c", "l", "h", "a", "b", "f", "s", "t", "sin", "mix"] {
             assert_eq!(taken.free(&[name, "other"]), "other", "{name}");
-            taken.0.remove("other");
+            taken.names.remove("other");
         }
+        // It goes with the old value, and nothing else may have its name while it is there.
+        assert_eq!(taken.clone().free(&["d"]), "d");
+        assert_eq!(taken.free_everywhere(&["d"]), "d_2");
         // Words of other languages are no names, and what was given once is not given again.
         assert_eq!(taken.free(&["x", "float", "half_way"]), "half_way");
         assert_eq!(taken.free(&["x", "float", "half_way"]), "x_2");

@@ -1,13 +1,15 @@
 //! Sums of products in the notation of the table language, as a person would
 //! write them: common factors in front, fractions as divisions.
 
-use super::kernel::{Kernel, Term};
+use super::kernel::{Kernel, SINC, Term};
 use super::poly::{Atom, Mono, Poly};
 use crate::program::rational::Rational;
 
 /// Prints sums; terms that share one of these variables are grouped by it.
 pub(super) struct Printer<'a> {
     pub(super) group_by: &'a [String],
+    /// The name of sin(x)/x in the table.
+    pub(super) sinc: &'a str,
 }
 
 impl Printer<'_> {
@@ -63,6 +65,7 @@ impl Printer<'_> {
                 Atom::Var(name) => (name.clone(), *power),
                 Atom::Fun(name, arguments) => {
                     let arguments: Vec<String> = arguments.iter().map(|a| self.sum(a)).collect();
+                    let name = if name == SINC { self.sinc } else { name };
                     (format!("{name}({})", arguments.join(", ")), *power)
                 }
             };
@@ -121,18 +124,18 @@ fn join(left: &str, right: &str) -> String {
     }
 }
 
-/// A kernel's two lines as a helper of the table: its declaration and what is said about it.
-pub(super) fn helper(kernel: &Kernel, indent: &str) -> String {
+/// A kernel's two lines as a helper of the table with the parameter `x`: its declaration and what is said about it.
+pub(super) fn helper(kernel: &Kernel, x: &str, indent: &str) -> String {
     let Kernel { name, terms, divisor, series, threshold, bounds } = kernel;
     let even = series.iter().skip(1).step_by(2).all(|c| c.is_zero());
     let step = if even { 2 } else { 1 };
     let coefficients: Vec<String> = series.iter().step_by(step).map(fraction).collect();
-    let argument = if even { "x * x" } else { "x" };
-    let closed = closed(terms, *divisor);
+    let argument = if even { format!("{x} * {x}") } else { x.to_owned() };
+    let closed = closed(terms, *divisor, x);
     format!(
-        "{indent}// 1 at x = 0. Relative error in f32: series at most {:.0e}, closed form from {threshold} on at most {:.0e}.\n\
-         {indent}\"{name}(x)\": [\n\
-         {indent}    (\"poly({argument}, [{}])\", \"abs(x) < {threshold}\"),\n\
+        "{indent}// 1 at {x} = 0. Relative error in f32: series at most {:.0e}, closed form from {threshold} on at most {:.0e}.\n\
+         {indent}\"{name}({x})\": [\n\
+         {indent}    (\"poly({argument}, [{}])\", \"abs({x}) < {threshold}\"),\n\
          {indent}    \"{closed}\",\n\
          {indent}],\n",
         bounds.0,
@@ -148,22 +151,23 @@ fn fraction(value: &Rational) -> String {
     }
 }
 
-/// The closed form in x.
-fn closed(terms: &[Term], divisor: i32) -> String {
+/// The closed form in `x`.
+fn closed(terms: &[Term], divisor: i32, x: &str) -> String {
     let mut sum = Poly::default();
     for term in terms {
         let mut mono = Mono::new();
         if term.power > 0 {
-            mono.insert(Atom::Var("x".to_owned()), term.power);
+            mono.insert(Atom::Var(x.to_owned()), term.power);
         }
         for (name, rate) in &term.functions {
-            let argument = Poly::var("x").times_number(*rate).unwrap_or_default();
+            let argument = Poly::var(x).times_number(*rate).unwrap_or_default();
             *mono.entry(Atom::Fun(name.clone(), vec![argument])).or_insert(0) += 1;
         }
         let _ = sum.add_term(mono, term.factor);
     }
-    let printer = Printer { group_by: &[] };
-    let power = vec!["x"; divisor.unsigned_abs() as usize].join(" * ");
+    // Closed forms are made of sines and powers.
+    let printer = Printer { group_by: &[], sinc: SINC };
+    let power = vec![x; divisor.unsigned_abs() as usize].join(" * ");
     let power = if divisor == 1 { power } else { format!("({power})") };
     let top = printer.write(&sum, true);
     format!("{top} / {power}")

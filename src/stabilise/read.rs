@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::between::between;
+use super::names::Taken;
 use super::poly::{Atom, Mono, Poly};
 use crate::program::rational::Rational;
 use crate::table::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
@@ -32,6 +33,8 @@ pub(super) struct Reader<'t> {
     /// The bounds met so far.
     pub(super) bounds: Vec<Bounds>,
     depth: usize,
+    /// The names that are in use, those of bounds included.
+    pub(super) taken: Taken,
     /// True if differences between bounds are read as integrals; see [`super::integrand`].
     pub(super) integrands: bool,
 }
@@ -44,8 +47,8 @@ fn too_large() -> String {
 }
 
 impl<'t> Reader<'t> {
-    pub(super) fn new(table: &'t Table) -> Self {
-        Self { table, bounds: Vec::new(), depth: 0, integrands: false }
+    pub(super) fn new(table: &'t Table, taken: &Taken) -> Self {
+        Self { table, bounds: Vec::new(), depth: 0, taken: taken.clone(), integrands: false }
     }
 
     /// The value of a function in terms of its parameters.
@@ -187,14 +190,8 @@ impl<'t> Reader<'t> {
         if let Some(known) = self.bounds.iter().position(|known| known.lo == lo && known.hi == hi) {
             return known;
         }
-        let taken = |name: &str| {
-            self.table.inputs.iter().any(|i| i.name.value == name)
-                || self.table.names.iter().any(|n| n.name.value == name)
-                || self.table.constants.iter().any(|c| c.name.value == name)
-                || self.bounds.iter().any(|b| b.mid == name || b.half == name)
-        };
-        let free = |names: [&str; 4]| names.into_iter().find(|name| !taken(name)).unwrap_or("between").to_owned();
-        let (mid, half) = (free(["m", "mid", "mean", "centre"]), free(["h", "half", "halved", "reach"]));
+        let mid = self.taken.free(&["m", "mid", "mean", "centre"]);
+        let half = self.taken.free(&["h", "halved", "reach"]);
         self.bounds.push(Bounds { lo, hi, mid, half });
         self.bounds.len() - 1
     }

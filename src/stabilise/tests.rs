@@ -1,5 +1,7 @@
 //! Printed formulas, and what becomes of them.
 
+mod layouts;
+
 use super::{Outcome, Stabilised, stabilise};
 use crate::diag::Source;
 use crate::table::Table;

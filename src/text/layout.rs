@@ -23,7 +23,7 @@ pub(crate) struct Bracket {
 }
 
 /// An item of a list, an entry of a map, a field.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Item {
     /// The key or the name.
     pub(crate) key: Option<Span>,

@@ -4,6 +4,8 @@
 
 pub(crate) mod closest;
 pub mod file;
+#[cfg(feature = "precise")]
+pub(crate) mod layout;
 pub(crate) mod raw;
 pub mod reach;
 pub(crate) mod tokens;

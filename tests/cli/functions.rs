@@ -283,6 +283,39 @@ fn what_cannot_be_stabilised() {
     assert!(said.code == Some(1) && said.out.contains("left alone: it is a choice"), "{}", said.all());
 }
 
+/// Words of the language in remarks, and a name that an addition would have.
+#[test]
+fn stabilised_tables_check_whatever_their_layout() {
+    let waves = |remark: &str, helpers: &str| {
+        format!(
+            "{remark}Table(language: 1, name: \"waves\", title: \"functions: Table(\", {helpers}
+            inputs: {{\"x0\": Range(from: -10, to: 10), \"x1\": Range(from: -10, to: 10), \"s\": Range(from: -20, to: 20)}},
+            functions: {{\"printed\": Function(parameters: [\"x0\", \"x1\", \"s\"],
+                value: \"sin(s * x) / s | x = x0 .. x1\")}})"
+        )
+    };
+    for (remark, helpers, kept) in [
+        ("// A Table(...) of functions.\n", "", "\n// A Table(...) of functions.\nTable("),
+        ("/* let: { */ ", "helpers: {\"sinc(a)\": \"a * 2\"},", "\"sinc(a)\": \"a * 2\""),
+        ("", "helpers: {},", "\"sinc(x)\": ["),
+    ] {
+        let place = Place::new();
+        place.file("waves.ron", waves(remark, helpers));
+        let said = place.run("stabilise waves.ron -o stable.ron");
+        assert_eq!((said.code, said.err.as_str()), (Some(0), ""), "{}", said.all());
+        assert!(place.read("stable.ron").contains(kept), "{}", place.read("stable.ron"));
+        assert_eq!(place.run("check stable.ron").code, Some(0), "{}", place.run("check stable.ron").all());
+        place.file("rows.csv", "x0,x1,s\n0.25,1,0\n");
+        let said = place.run("eval stable.ron --function printed --input rows.csv");
+        assert_eq!(said.out, "case,value\n0,0.75\n", "{}", said.all());
+    }
+    // A table that means nothing is not made into one that does.
+    let place = Place::new();
+    place.file("waves.ron", waves("", "").replace("sin(s * x) / s", "sinc(s * x) / s"));
+    let said = place.run("stabilise waves.ron -o stable.ron");
+    assert!(said.code == Some(2) && said.err.contains("error[U0206]: "), "{}", said.all());
+}
+
 #[test]
 fn columns_of_functions() {
     let place = Place::new();
