@@ -229,12 +229,14 @@ fn output(of: &Output) -> u64 {
     match of {
         Output::Number(_) => Words::of("number"),
         Output::Vector(size, _) => Words::of("vector").word(*size as u64),
+        Output::Bool => Words::of("bool"),
+        Output::Int(lo, hi) => Words::of("int").number(f64::from(*lo)).number(f64::from(*hi)),
         Output::Record(fields) => {
             let words = Words::of("record").word(fields.len() as u64);
             fields.iter().fold(words, |words, (name, field)| words.text(name).word(output(field)))
         }
         Output::Enumeration(of) => Words::of("enumeration").word(levels(of)),
-        Output::List { of, max } => Words::of("list").word(levels(of)).word(*max as u64),
+        Output::List { of, max } => Words::of("list").word(output(of)).word(*max as u64),
     }
     .hash()
 }
