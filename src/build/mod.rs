@@ -184,7 +184,8 @@ fn library(functions: &[Program], options: &Options) -> Result<Built, Failure> {
         all.dedup();
     }
     let proof = proved.iter().map(|proved| proved.proof().clone()).reduce(Proof::and);
-    let plan = |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new(), fallback: None, beyond };
+    let plan =
+        |proof| BuiltPlan { name: Shape::Ladder.to_string(), proof, chosen_on: Vec::new(), fallback: None, beyond };
     built.plans.extend(proof.map(plan));
     Ok(built)
 }
