@@ -124,11 +124,11 @@ fn parameters(density: &Density, names: &Names) -> Vec<String> {
     all
 }
 
-/// What an integral calls things.
+/// The names of the parts of an integral.
 pub(super) struct Called<'a> {
     /// The density.
     pub(super) helper: &'a str,
-    /// How far it turns.
+    /// The name of the turn over half the interval.
     pub(super) turn: &'a str,
     /// A node and its weight.
     pub(super) node: &'a str,

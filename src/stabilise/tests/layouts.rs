@@ -38,7 +38,7 @@ const COMMENTS: [&str; 8] = [
 /// Lays tables out in other ways.
 struct Layouter {
     random: Random,
-    /// How often something stands between two tokens that needs not; zero for all on one line.
+    /// The rarity of comments between tokens; zero for everything on one line.
     loose: usize,
 }
 
@@ -134,7 +134,7 @@ fn parsed(text: &str) -> Table {
     Table::parse(Source::new("odd.ron", text)).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// What the functions of a table mean, by their names.
+/// The fingerprints of the functions of a table, by their names.
 fn meanings(text: &str) -> Vec<(String, String)> {
     let programs = Program::check_all(&parsed(text)).unwrap_or_else(|e| panic!("{e}\n{text}"));
     programs.iter().map(|program| (program.name.clone(), program.fingerprint())).collect()
