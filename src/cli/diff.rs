@@ -195,16 +195,20 @@ fn human(
         let why = auto.fallback.as_ref().map_or("tuned on this device".to_owned(), Fallback::to_string);
         writeln!(out, "  `auto` is `{}`: {why}", auto.shape)?;
     }
-    writeln!(out, "  plan           entry   source   bit-equal  admissible   offending   worst difference")?;
+    writeln!(
+        out,
+        "  plan           entry   source   bit-equal  admissible   reordered   offending   worst difference"
+    )?;
     for run in &report.runs {
         writeln!(
             out,
-            "  {:<14} {:<7} {:<6} {:>11} {:>11} {:>11}   {:e}",
+            "  {:<14} {:<7} {:<6} {:>11} {:>11} {:>11} {:>11}   {:e}",
             run.shape.name(),
             run.entry.name(),
             run.language.name(),
             run.bit_equal,
             run.admissible,
+            run.reordered,
             run.offending,
             run.worst
         )?;
@@ -229,6 +233,7 @@ fn json(gpu: &Gpu, options: &Options, auto: Option<&Auto>, report: &diff::Report
             "language": run.language.name(),
             "bit_equal": run.bit_equal,
             "admissible": run.admissible,
+            "reordered": run.reordered,
             "offending": run.offending,
             "excluded": run.excluded,
             "worst": run.worst,

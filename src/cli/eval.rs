@@ -11,6 +11,8 @@ use super::output::Sink;
 use super::{Outcome, PrecisionArgument, Result, parse_shape};
 use crate::diag::{Diagnostic, Failure, Span, codes};
 #[cfg(feature = "gpu")]
+use crate::diff::Jury;
+#[cfg(feature = "gpu")]
 use crate::emit::kernel::columns::Entry;
 use crate::eval::{self, Batch, Interpreter, NeedsFetch};
 use crate::explain::explain;
@@ -84,6 +86,8 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         let note = Diagnostic::note(codes::NOT_APPLICABLE, message).help("plans are run with `--backend gpu`");
         report.failure(&Failure::bare("", note));
     }
+    #[cfg(feature = "gpu")]
+    let mut jury = proved.as_ref().map(Jury::new);
     let precision = arguments.precision.into();
     let rows = input::read(&program, &arguments.input)?;
     let source = &rows.source;
@@ -96,7 +100,11 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let mut problems = Problems::default();
     while columns.next(&mut points, &mut problems) {
         // Rows that cannot be read have no answer; the others are judged nevertheless, to report all that is wrong.
-        let answers = evaluate(&program, &points, &executor, precision)?;
+        let answers = match &executor {
+            #[cfg(feature = "gpu")]
+            Executor::Gpu(kernel) => dispatch(&program, &points, kernel, jury.as_mut())?,
+            _ => evaluate(&program, &points, precision),
+        };
         if program.function.is_some() {
             outside(&program, &points, |place| columns.locate(source, place), &mut problems);
         }
@@ -112,6 +120,20 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         return Err(problems.into_failure(source.clone()).into());
     }
     writer.end()?.finish()?;
+    #[cfg(feature = "gpu")]
+    if let (Some(jury), technique::Executor::Gpu(gpu)) = (&jury, &machine)
+        && let Some(first) = jury.run.offenders.first()
+    {
+        let (count, device) = (jury.run.offending, gpu.name());
+        let message = format!("{device} gave {count} answers that WGSL does not admit, such as at {}", first.inputs);
+        let table = &program.source.name;
+        let function = program.function.as_ref().map_or(String::new(), |f| format!(" --function {}", f.name));
+        let warning = Diagnostic::warning(codes::INADMISSIBLE, message)
+            .help(first.reason.clone())
+            .help(format!("to see what should happen: `umbrage explain {table}{function} --at {}`", first.inputs));
+        report.failure(&Failure::bare("", warning));
+        return Ok(Outcome::Findings);
+    }
     Ok(Outcome::Clean)
 }
 
@@ -169,15 +191,11 @@ fn needs(program: &Program, point: &[Option<Value>], place: (String, Option<Span
     error.help(format!("give `{}` a value in this row: {}", input.name, input.doc))
 }
 
-/// Answers some points.
-fn evaluate(program: &Program, points: &Points, executor: &Executor<'_>, precision: Precision) -> Result<Answers> {
-    match (executor, precision) {
-        (Executor::Interpreter, Precision::F32) => Ok(interpret::<f32>(program, points)),
-        (Executor::Interpreter, Precision::F64) => Ok(interpret::<f64>(program, points)),
-        #[cfg(feature = "gpu")]
-        (Executor::Gpu(kernel), _) => Ok(dispatch(program, points, kernel)?),
-        #[cfg(not(feature = "gpu"))]
-        (Executor::Never(_), _) => Ok(Answers::default()),
+/// Answers some points with the interpreter.
+fn evaluate(program: &Program, points: &Points, precision: Precision) -> Answers {
+    match precision {
+        Precision::F32 => interpret::<f32>(program, points),
+        Precision::F64 => interpret::<f64>(program, points),
     }
 }
 
@@ -212,9 +230,17 @@ fn interpret<T: Real>(program: &Program, points: &Points) -> Answers {
 
 /// Answers points on the GPU. What it fetched tells which points lack an input.
 #[cfg(feature = "gpu")]
-fn dispatch(program: &Program, points: &Points, kernel: &Kernel<'_, '_>) -> std::result::Result<Answers, Failure> {
+fn dispatch(
+    program: &Program,
+    points: &Points,
+    kernel: &Kernel<'_, '_>,
+    jury: Option<&mut Jury<'_>>,
+) -> std::result::Result<Answers, Failure> {
     let columns = columns_of(program, points);
     let outputs = kernel.run(&columns)?;
+    if let Some(jury) = jury {
+        jury.hear(&columns, &outputs);
+    }
     let mut answers = Answers::default();
     for (point, row) in outputs.rows.iter().enumerate() {
         match outputs.fetched[point].iter().find(|input| !columns.is_present(point, *input)) {

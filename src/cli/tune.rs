@@ -1,11 +1,12 @@
 //! `umbrage tune`: measures every plan of a table here, and keeps the best.
 
+mod compile;
 mod whole;
 
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::json;
@@ -22,8 +23,17 @@ use crate::profile::fit;
 use crate::program::Program;
 use crate::technique::Executor;
 use crate::text::file::{Home, shown};
-use crate::tune::{self, Kind, Options, Tuning};
+use crate::tune::{self, Candidate, Kind, Options, Tuning};
 use crate::tuned::{Choice, Tuned};
+
+/// The longest time without a word.
+const SILENCE: Duration = Duration::from_secs(10);
+
+/// Reads a number of seconds.
+fn parse_seconds(text: &str) -> std::result::Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if (0.01..=1e6).contains(&seconds) { Ok(seconds) } else { Err("not between 0.01 and 1000000 seconds".to_owned()) }
+}
 
 /// Arguments of `umbrage tune`.
 #[derive(clap::Args)]
@@ -62,6 +72,15 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = Options::default().repeats,
           value_parser = clap::value_parser!(u32).range(1..=10_000))]
     repeats: u32,
+    /// Longest time that the device may take to compile a plan, in seconds; plans that take longer are left out
+    #[arg(long, value_name = "SECONDS", default_value_t = 20.0, value_parser = parse_seconds)]
+    compile_limit: f64,
+    /// Longest time for all measurements, in seconds; there are fewer rounds if they would take longer
+    #[arg(long, value_name = "SECONDS", default_value_t = Options::default().time.as_secs_f64(), value_parser = parse_seconds)]
+    time_limit: f64,
+    /// Compiles one plan and runs it once: what runs in a process of its own, which can be ended
+    #[arg(long, hide = true)]
+    only_compile: bool,
     /// Measure with the wall clock even if the device has timestamps
     #[arg(long)]
     wall_clock: bool,
@@ -106,6 +125,11 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         return Ok(Outcome::Failed);
     }
     let weights = fitted.weights(&program, &name)?;
+    if let (true, [shape]) = (arguments.only_compile, arguments.plan.as_slice()) {
+        let (candidate, gpu) = (Candidate::of(*shape, arguments.assume), Gpu::open(&arguments.adapter)?);
+        tune::compile(&program, &fitted, &weights, candidate, &gpu, arguments.rows_of_thread)?;
+        return Ok(Outcome::Clean);
+    }
     let mut frames = None;
     for file in &arguments.frames {
         let read = input::read_all(&program, file)?;
@@ -123,6 +147,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         repeats: arguments.repeats,
         protocol: Protocol { rounds: arguments.rounds, ..defaults.protocol },
         wall_clock: arguments.wall_clock,
+        time: Duration::from_secs_f64(arguments.time_limit),
     };
     // What is wrong with them is said before anything takes time.
     let scenes = if arguments.whole { whole::scenes(arguments, &program)? } else { Vec::new() };
@@ -133,8 +158,14 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     Tuned::read(&path)?;
     let page = arguments.report.as_deref().map(Sink::create).transpose()?;
     let bar = progress();
-    let result = tune::tune(&program, fitted, &weights, frames.as_ref(), &gpu, &options, |doing| {
+    let start = Instant::now();
+    let mut compiles = |candidate, rows| compile::within_limit(arguments, candidate, rows);
+    let result = tune::tune(&program, fitted, &weights, frames.as_ref(), &gpu, &options, &mut compiles, |doing| {
         bar.set_message(doing.to_owned());
+        // Where nobody sees the bar, what takes long is still said.
+        if bar.is_hidden() && start.elapsed() > SILENCE {
+            eprintln!("{} s: {doing}", start.elapsed().as_secs());
+        }
     });
     let result = result.and_then(|mut tuning| {
         if arguments.whole {
@@ -216,6 +247,9 @@ fn human(tuning: &Tuning<'_>, path: &Path) -> Result<()> {
         }
     }
     whole::human(&mut out, tuning)?;
+    for shortened in &tuning.shortened {
+        writeln!(out, "shortened: {shortened}")?;
+    }
     for (candidate, reason) in &tuning.skipped {
         writeln!(out, "left out: {}: {reason}", candidate.name())?;
     }
@@ -272,6 +306,7 @@ fn object(tuning: &Tuning<'_>) -> serde_json::Value {
         "plans": plans.collect::<Vec<_>>(),
         "clock": tuning.clock.to_string(),
         "chosen": tuning.plans[tuning.chosen].candidate.name(),
+        "shortened": tuning.shortened,
         "skipped": left_out(&tuning.skipped),
         "wrong": left_out(&tuning.wrong),
         "expected_tests": expected.collect::<Vec<_>>(),

@@ -169,6 +169,7 @@ registry! {
     // Devices.
     NO_ADAPTER = "U0801", Failure, Error, "no graphics adapter was found";
     DEVICE = "U0802", Failure, Error, "the graphics device failed";
+    INADMISSIBLE = "U0803", Failure, Warning, "answers of a device that WGSL does not admit (a warning: where, and what was expected)";
     // Scenes and renderers.
     SCENE = "U0901", Failure, Error, "a scene has no meaning: a light without a direction, a shape without a size, …";
     MESH = "U0902", Failure, Error, "a mesh cannot be read, or nothing can be done with it";

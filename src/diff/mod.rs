@@ -5,7 +5,8 @@
 //! One that does not may still be legal: WGSL fixes no rounding mode, so near
 //! the line where a comparison switches, and in the last bits, more than one
 //! answer is admissible. Then the interval interpreter judges, which knows
-//! WGSL's accuracy rules: inside what it admits is legal, outside is a bug.
+//! WGSL's accuracy rules: inside what it admits is legal, outside is a bug. What is
+//! legal only since WGSL admits sums and products in another order is counted by itself.
 //! Fetches have no such leeway: one that the interpreter did not make, or made
 //! twice, is a bug, unless another case or line was legally taken.
 //!
@@ -79,8 +80,10 @@ pub struct Run {
     pub language: Language,
     /// Points with the same case and the same bits.
     pub bit_equal: usize,
-    /// Points that differ, but as WGSL admits.
+    /// Points that differ, but as WGSL admits for the operations as they are written.
     pub admissible: usize,
+    /// Points that differ as WGSL admits only if sums and products are computed in another order.
+    pub reordered: usize,
     /// Points that differ otherwise.
     pub offending: usize,
     /// Points at which an assumption does not hold that the plan makes use of.
@@ -98,6 +101,14 @@ pub struct Offender {
     pub inputs: String,
     /// The result, and the one that was expected.
     pub reason: String,
+}
+
+impl Run {
+    fn new(shape: Shape, entry: Entry, language: Language) -> Self {
+        let (bit_equal, admissible, reordered, offending, excluded) = (0, 0, 0, 0, 0);
+        let offenders = Vec::new();
+        Self { shape, entry, language, bit_equal, admissible, reordered, offending, excluded, worst: 0.0, offenders }
+    }
 }
 
 impl Report {
@@ -212,6 +223,36 @@ pub fn plans(
     Ok(comparison.report)
 }
 
+/// Judges the answers of one executor as they come.
+pub struct Jury<'p> {
+    interpreter: Batch<'p, f32>,
+    judge: Judge<'p>,
+    leeway: Leeway,
+    /// The findings so far.
+    pub run: Run,
+}
+
+impl<'p> Jury<'p> {
+    /// A jury for the WGSL of a plan.
+    pub fn new(proved: &Proved<'p>) -> Self {
+        let program = proved.plan().program;
+        Self {
+            interpreter: Batch::new(program),
+            judge: Judge::new(program),
+            leeway: Leeway::of(proved),
+            run: Run::new(proved.plan().shape, Entry::Key, Language::Wgsl),
+        }
+    }
+
+    /// Judges the answers at some points. Points at which an input is missing that is needed have none.
+    pub fn hear(&mut self, columns: &Columns<f32>, outputs: &Outputs) {
+        let Ok(expected) = self.interpreter.evaluate(columns) else { return };
+        for point in 0..columns.len() {
+            self.judge.compare(columns, point, &expected, outputs, self.leeway, &mut self.run);
+        }
+    }
+}
+
 /// A comparison under way.
 struct Comparison<'a, 'p> {
     kernels: Vec<(Kernel<'a, 'p>, Leeway)>,
@@ -232,34 +273,19 @@ impl<'a, 'p> Comparison<'a, 'p> {
         entries: &[Entry],
         languages: &[Language],
     ) -> Result<Self, Failure> {
-        let mut kernels = Vec::new();
-        let mut runs = Vec::new();
+        let mut wanted = Vec::new();
         for proved in proved {
-            for entry in entries.iter().copied() {
-                for language in languages.iter().copied() {
-                    kernels.push((Kernel::new(gpu, proved, entry, language)?, Leeway::of(proved)));
-                    runs.push(Run {
-                        shape: proved.plan().shape,
-                        entry,
-                        language,
-                        bit_equal: 0,
-                        admissible: 0,
-                        offending: 0,
-                        excluded: 0,
-                        worst: 0.0,
-                        offenders: Vec::new(),
-                    });
-                }
+            for entry in entries {
+                wanted.extend(languages.iter().map(|language| (proved, *entry, *language)));
             }
         }
+        let runs = wanted.iter().map(|(proved, entry, language)| Run::new(proved.plan().shape, *entry, *language));
+        let runs = runs.collect();
+        let kernels = compiled(gpu, &wanted)?;
         Ok(Self {
             kernels,
             interpreter: Batch::new(program),
-            judge: Judge {
-                program,
-                intervals: IntervalInterpreter::new(program),
-                interpreter: Interpreter::new(program),
-            },
+            judge: Judge::new(program),
             report: Report { table: program.name.clone(), states: None, points: 0, runs, refused: Vec::new() },
         })
     }
@@ -281,6 +307,25 @@ impl<'a, 'p> Comparison<'a, 'p> {
         }
         Ok(())
     }
+}
+
+/// Compiles plans, several at the same time: for some drivers it is the most that there is to do.
+fn compiled<'a, 'p>(
+    gpu: &'a Gpu,
+    wanted: &[(&Proved<'p>, Entry, Language)],
+) -> Result<Vec<(Kernel<'a, 'p>, Leeway)>, Failure> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let compile = |(proved, entry, language): &(&Proved<'p>, Entry, Language)| {
+        Ok((Kernel::new(gpu, proved, *entry, *language)?, Leeway::of(proved)))
+    };
+    let parts: Vec<Vec<Result<_, Failure>>> = std::thread::scope(|scope| {
+        let part = |part| scope.spawn(move || wanted.iter().skip(part).step_by(threads).map(compile).collect());
+        let parts: Vec<_> = (0..threads).map(part).collect();
+        let joined = parts.into_iter().map(std::thread::ScopedJoinHandle::join);
+        joined.map(|part| part.unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+    });
+    let mut parts: Vec<_> = parts.into_iter().map(Vec::into_iter).collect();
+    (0..wanted.len()).filter_map(|index| parts[index % threads].next()).collect()
 }
 
 fn internal(program: &Program, message: &str) -> Failure {
@@ -324,7 +369,11 @@ struct Judge<'p> {
     interpreter: Interpreter<'p, f32>,
 }
 
-impl Judge<'_> {
+impl<'p> Judge<'p> {
+    fn new(program: &'p Program) -> Self {
+        Self { program, intervals: IntervalInterpreter::new(program), interpreter: Interpreter::new(program) }
+    }
+
     fn compare(
         &mut self,
         columns: &Columns<f32>,
@@ -367,15 +416,22 @@ impl Judge<'_> {
             return;
         } else {
             let values: Vec<f32> = outputs.values.iter().map(|component| component[point]).collect();
-            let near = self.intervals.admissible_near(&columns.point(point), leeway.slack);
-            // An absent input may be needed by what was legally done otherwise.
-            let legal = near.is_ok_and(|near| match needless {
-                Some(_) if same_case => near.contains_fetching(got_row, &values, fetched),
-                _ if leeway.other_case => near.contains_values(&values),
-                _ => near.contains(got_row, &values),
-            });
-            if legal {
+            let mut legal = |reordering: bool| {
+                self.intervals.reordering(reordering);
+                let near = self.intervals.admissible_near(&columns.point(point), leeway.slack);
+                // An absent input may be needed by what was legally done otherwise.
+                near.is_ok_and(|near| match needless {
+                    Some(_) if same_case => near.contains_fetching(got_row, &values, fetched),
+                    _ if leeway.other_case => near.contains_values(&values),
+                    _ => near.contains(got_row, &values),
+                })
+            };
+            if legal(false) {
                 run.admissible += 1;
+                return;
+            }
+            if legal(true) {
+                run.reordered += 1;
                 return;
             }
             let _ = match needless {

@@ -15,7 +15,7 @@ use super::names::{Names, fetches, input_type};
 use super::text::Text;
 use crate::diag::fnv1a;
 use crate::plan::{KeyLayout, Plan};
-use crate::program::{BinaryOp, Domain, Levels, Node, Program, Scalar, UnaryOp};
+use crate::program::{BinaryOp, Domain, Levels, Node, Program, Scalar, TernaryOp, UnaryOp};
 use crate::prove::Proved;
 
 /// Writes the module of a plan.
@@ -110,12 +110,15 @@ impl Writer<'_, '_> {
         let fields = fields.map(|(name, ty)| (name, self.dialect.ty(&ty, &self.prefix)));
         self.text.line(self.dialect.structure(&self.prefix.result(), &fields));
         self.text.gap();
-        if uses(self.plan, |node| matches!(node, Node::Binary(BinaryOp::Remainder, ..))) {
-            let helper = self.dialect.remainder(&self.prefix);
-            if !helper.is_empty() {
-                self.text.line(helper);
-                self.text.gap();
-            }
+        let remainder = uses(self.plan, |node| matches!(node, Node::Binary(BinaryOp::Remainder, ..)));
+        let smoothstep = uses(self.plan, |node| matches!(node, Node::Ternary(TernaryOp::Smoothstep, ..)));
+        let helpers = [
+            remainder.then(|| self.dialect.remainder(&self.prefix)),
+            smoothstep.then(|| self.dialect.smoothstep(&self.prefix)),
+        ];
+        for helper in helpers.into_iter().flatten().filter(|helper| !helper.is_empty()) {
+            self.text.line(helper);
+            self.text.gap();
         }
         if uses(self.plan, |node| matches!(node, Node::Unary(UnaryOp::PortableSin | UnaryOp::PortableCos, _))) {
             self.text.line(self.dialect.sincos(&self.prefix));

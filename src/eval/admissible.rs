@@ -16,9 +16,11 @@
 //!   for a jump (`step`, `floor`, …) between two values, which is followed
 //!   like a comparison, so that no value between them is admitted.
 //! - Fusing and anything else that merely leaves out a rounding is covered, as
-//!   the intervals contain the exact result. WGSL also lets an implementation
-//!   *reassociate* whole expressions, `(a + b) - a` for one; results that only
-//!   come about that way are **not** covered and are reported as inadmissible.
+//!   the intervals contain the exact result.
+//! - WGSL also lets an implementation *reassociate* whole expressions, `(a + b) - a`
+//!   for one. What only comes about that way is admitted if it is asked for
+//!   ([`IntervalInterpreter::reordering`]): certificates of accuracy are about
+//!   operations as written, and who judges a device wants to tell both apart.
 //! - A fetched input may be absent. If the exact evaluation needs it, that is
 //!   an error. If only other evaluations near a boundary would have needed it,
 //!   they are left out: the host has followed the exact one and cannot supply
@@ -26,10 +28,11 @@
 
 use std::cell::{Cell, RefCell};
 
+use super::freely::Free;
 use super::interval::Interval;
 use super::{Interpreter, NeedsFetch};
 use crate::program::operators::Image;
-use crate::program::{BinaryOp, Cond, CondId, ExprId, InputId, InputSet, Node, Program, Value};
+use crate::program::{BinaryOp, Cond, CondId, ExprId, InputId, InputSet, Node, Program, TernaryOp, UnaryOp, Value};
 
 /// Most evaluations that are followed at one point.
 const MAX_FORKS: usize = 512;
@@ -113,8 +116,24 @@ pub struct IntervalInterpreter<'p> {
     fetched: Cell<InputSet>,
     /// The error that every continuous input may have.
     slack: f64,
+    /// True if sums and products may be computed in any order.
+    reordering: bool,
     /// The results of operations in this evaluation, so that what is shared is computed once.
-    known: RefCell<Vec<Option<Interval>>>,
+    known: RefCell<Vec<Option<Known>>>,
+}
+
+/// The result of an operation.
+#[derive(Debug, Clone, Copy)]
+struct Known {
+    value: Interval,
+    /// The same as a sum of products.
+    free: Free,
+}
+
+impl From<Interval> for Known {
+    fn from(value: Interval) -> Self {
+        Self { value, free: Free::leaf(value) }
+    }
 }
 
 impl<'p> IntervalInterpreter<'p> {
@@ -129,7 +148,13 @@ impl<'p> IntervalInterpreter<'p> {
             choices: Vec::new(),
             fetched: Cell::default(),
             slack: 0.0,
+            reordering: false,
         }
+    }
+
+    /// From now on also admits what sums and products are if they are computed in another order, or no longer does.
+    pub fn reordering(&mut self, admitted: bool) {
+        self.reordering = admitted;
     }
 
     /// All results admissible at some point near a point: for code that
@@ -206,7 +231,8 @@ impl<'p> IntervalInterpreter<'p> {
     }
 
     fn possible(&self, row: Option<usize>, values: &[ExprId]) -> Result<Possible, Stop> {
-        let values = values.iter().map(|value| self.number(*value)).collect::<Result<_, _>>()?;
+        let values =
+            values.iter().map(|value| self.number(*value).map(|known| known.value)).collect::<Result<_, _>>()?;
         Ok(Possible { row, values, fetched: self.fetched.get() })
     }
 
@@ -233,7 +259,11 @@ impl<'p> IntervalInterpreter<'p> {
             },
             Cond::Compare(op, a, b) => {
                 let (a, b) = (self.number(*a)?, self.number(*b)?);
-                a.compare(*op, b).map_or_else(|| self.choice(Choice::Comparison(condition)), Ok)
+                let decided = match self.reordering && !(a.free.is_leaf() && b.free.is_leaf()) {
+                    true => a.free.compare(*op, b.free),
+                    false => a.value.compare(*op, b.value),
+                };
+                decided.map_or_else(|| self.choice(Choice::Comparison(condition)), Ok)
             }
             Cond::Not(a) => Ok(!self.holds(*a)?),
             Cond::And(parts) => {
@@ -259,7 +289,7 @@ impl<'p> IntervalInterpreter<'p> {
         }
     }
 
-    fn number(&self, expr: ExprId) -> Result<Interval, Stop> {
+    fn number(&self, expr: ExprId) -> Result<Known, Stop> {
         if let Some(known) = self.known.borrow()[expr.index()] {
             return Ok(known);
         }
@@ -268,32 +298,73 @@ impl<'p> IntervalInterpreter<'p> {
         Ok(value)
     }
 
-    fn operation(&self, expr: ExprId) -> Result<Interval, Stop> {
-        match self.program.pool.node(expr) {
-            Node::Const(number) => Ok(Interval::constant(number.get())),
+    fn operation(&self, expr: ExprId) -> Result<Known, Stop> {
+        Ok(match self.program.pool.node(expr) {
+            Node::Const(number) => Interval::constant(number.get()).into(),
             Node::Input(input) => match self.point[input.index()] {
                 Some(Value::Number(number)) => {
                     self.look_at(input);
-                    Ok(Interval::near(number as f32, self.slack))
+                    Interval::near(number as f32, self.slack).into()
                 }
-                _ => Err(Stop::Missing),
+                _ => return Err(Stop::Missing),
             },
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
-            Node::Result(_) => Ok(Interval::ANY),
+            Node::Result(_) => Interval::ANY.into(),
             Node::Unary(op, a) => {
                 let a = self.number(a)?;
-                let image = Interval::unary(op, a);
-                if op.row().image == Image::Steps { self.jump(expr, image) } else { Ok(image) }
+                let image = Interval::unary(op, a.value);
+                match op.row().image == Image::Steps {
+                    true => self.jump(expr, image)?.into(),
+                    false => self.reordered(image, || {
+                        let whole = || Free::leaf(Interval::unary(UnaryOp::Floor, a.value));
+                        let part = (op == UnaryOp::Fract).then(|| a.free.subtract(whole()));
+                        part.or_else(|| (op == UnaryOp::Negate).then(|| a.free.negate()))
+                    }),
+                }
             }
             Node::Binary(op, a, b) => {
-                let image = Interval::binary(op, self.number(a)?, self.number(b)?);
-                if op == BinaryOp::Step { self.jump(expr, image) } else { Ok(image) }
+                let (a, b) = (self.number(a)?, self.number(b)?);
+                let image = Interval::binary(op, a.value, b.value);
+                let free = || match op {
+                    BinaryOp::Add => Some(a.free.add(b.free)),
+                    BinaryOp::Subtract => Some(a.free.subtract(b.free)),
+                    BinaryOp::Multiply => Some(a.free.multiply(b.free)),
+                    BinaryOp::Divide => Some(a.free.over(b.value)),
+                    BinaryOp::Remainder => {
+                        let whole =
+                            Interval::unary(UnaryOp::Trunc, Interval::binary(BinaryOp::Divide, a.value, b.value));
+                        Some(a.free.subtract(b.free.multiply(Free::leaf(whole))))
+                    }
+                    BinaryOp::Atan2 | BinaryOp::Max | BinaryOp::Min | BinaryOp::Pow | BinaryOp::Step => None,
+                };
+                match op == BinaryOp::Step {
+                    true => {
+                        let value = self.jump(expr, image)?;
+                        Known { value, free: Free::one_less(value) }
+                    }
+                    false => self.reordered(image, free),
+                }
             }
-            Node::Ternary(op, a, b, c) => Ok(Interval::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?)),
+            Node::Ternary(op, a, b, c) => {
+                let (a, b, c) = (self.number(a)?, self.number(b)?, self.number(c)?);
+                self.reordered(Interval::ternary(op, a.value, b.value, c.value), || match op {
+                    TernaryOp::Fma => Some(a.free.multiply(b.free).add(c.free)),
+                    TernaryOp::Mix => Some(Free::mix(a.free, b.free, c.free)),
+                    TernaryOp::Clamp | TernaryOp::Smoothstep => None,
+                })
+            }
             Node::Select(condition, then, other) => match self.holds(condition)? {
-                true => self.number(then),
-                false => self.number(other),
+                true => self.number(then)?,
+                false => self.number(other)?,
             },
+        })
+    }
+
+    /// The result of an operation, with those of other orders if they are admitted and it is a sum or product.
+    fn reordered(&self, image: Interval, free: impl FnOnce() -> Option<Free>) -> Known {
+        match if self.reordering { free() } else { None } {
+            Some(free) => Known { value: free.interval().map_or(image, |other| image.hull(other)), free },
+            None => image.into(),
         }
     }
 

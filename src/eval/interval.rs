@@ -82,6 +82,11 @@ impl Interval {
         self.is_any() || (self.lo <= other.lo && other.hi <= self.hi)
     }
 
+    /// All that `f32` has between two numbers, and the nearest below and above.
+    pub(super) fn between(lo: f64, hi: f64) -> Self {
+        Self::around(lo, hi)
+    }
+
     /// The smallest interval with both.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
@@ -235,7 +240,11 @@ impl Interval {
                 image(&nested).hull(image(&median))
             }
             TernaryOp::Fma => a.multiply(b).add(c),
-            TernaryOp::Mix => a.multiply(one.subtract(c)).add(b.multiply(c)),
+            // As WGSL has it, and as drivers have it.
+            TernaryOp::Mix => {
+                let by_parts = a.multiply(one.subtract(c)).add(b.multiply(c));
+                by_parts.hull(a.add(c.multiply(b.subtract(a))))
+            }
             TernaryOp::Smoothstep => {
                 let t = Self::unary(UnaryOp::Saturate, c.subtract(a).divide(b.subtract(a)));
                 let (two, three) = (Self::constant(2.0), Self::constant(3.0));

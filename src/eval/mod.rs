@@ -14,6 +14,7 @@ mod admissible;
 mod batch;
 mod code;
 mod columns;
+mod freely;
 mod interval;
 #[cfg(feature = "precise")]
 mod precise;

@@ -12,6 +12,8 @@ mod inputs;
 mod page;
 pub mod whole;
 
+use std::time::Duration;
+
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff;
 use crate::eval::Columns;
@@ -48,6 +50,8 @@ pub struct Options {
     pub protocol: Protocol,
     /// True if to use the wall clock even if the device has timestamps.
     pub wall_clock: bool,
+    /// Longest time for all measurements. If a first one says that they would take longer, there are fewer rounds.
+    pub time: Duration,
 }
 
 impl Default for Options {
@@ -60,6 +64,7 @@ impl Default for Options {
             repeats: 1,
             protocol: Protocol { warm_up: 3, rounds: 15 },
             wall_clock: false,
+            time: Duration::from_secs(300),
         }
     }
 }
@@ -78,6 +83,11 @@ pub struct Candidate {
 impl Candidate {
     /// The ladder as written: what everything is compared with.
     pub const WRITTEN: Self = Self { shape: Shape::Ladder, weighted: false, assume: false };
+
+    /// The way to make a plan of a shape, for the profile unless it is the ladder, which no profile changes.
+    pub fn of(shape: Shape, assume: bool) -> Self {
+        Self { shape, weighted: assume || shape != Shape::Ladder, assume }
+    }
 
     /// The name in reports.
     pub fn name(self) -> String {
@@ -99,7 +109,7 @@ impl Candidate {
             }
             // The ladder as written is there already, and no profile changes it.
             let others = options.shapes.iter().filter(|shape| **shape != Shape::Ladder);
-            all.extend(others.map(|shape| Self { shape: *shape, weighted: true, assume }));
+            all.extend(others.map(|shape| Self::of(*shape, assume)));
         }
         all
     }
@@ -143,12 +153,78 @@ pub struct Tuning<'p> {
     pub chosen: usize,
     /// The plans in whole shaders, if that was measured.
     pub whole: Vec<whole::Whole>,
+    /// The changes to what was asked for, which would have taken too long.
+    pub shortened: Vec<String>,
 }
 
-/// Tunes a table for a device. `progress` is told what is being done.
+/// Says whether a device compiles a plan, with so many rows for each thread, in reasonable time; else the reason.
+pub type Compiles<'c> = dyn FnMut(Candidate, u32) -> Result<(), String> + 'c;
+
+/// Fewest rounds that say anything about noise.
+const LEAST_ROUNDS: usize = 3;
+
+/// Compiles a plan and runs it once, as tuning does: on a device that takes forever, this does.
+///
+/// # Errors
+/// When the plan does not suit the table, or the device fails.
+pub fn compile(
+    program: &Program,
+    profile: &Fitted,
+    weights: &Weights,
+    candidate: Candidate,
+    gpu: &Gpu,
+    rows_of_thread: u32,
+) -> Result<(), Failure> {
+    let proved = Plan::new(program, candidate.options(weights))?.prove()?;
+    let columns = inputs::Source::new(program).rows(Kind::Random, rows_of_thread as usize, None, &profile.profile);
+    diff::at(program, std::slice::from_ref(&proved), gpu, &columns)?;
+    let timed = Timed::plan(gpu, &proved, rows_of_thread)?;
+    timed.time(gpu, &Stopwatch::wall(gpu), &Workload::new(gpu, program, &columns)?, 1).map(drop)
+}
+
+/// The plans of a table that a device compiles in reasonable time; and those that it does not, with the reason.
+fn compiled<'p>(
+    program: &Program,
+    (proved, mut skipped): Plans<'p>,
+    options: &mut Options,
+    shortened: &mut Vec<String>,
+    compiles: &mut Compiles<'_>,
+    progress: &mut impl FnMut(&str),
+) -> Result<Plans<'p>, Failure> {
+    let mut kept = Vec::new();
+    for (candidate, proved) in proved {
+        progress(&format!("compiling {}", candidate.name()));
+        let mut found = compiles(candidate, options.rows_of_thread);
+        // A loop is what some drivers cannot cope with; then no plan gets one.
+        if candidate == Candidate::WRITTEN && options.rows_of_thread > 1 && found.is_err() {
+            let rows = options.rows_of_thread;
+            found = compiles(candidate, 1);
+            if found.is_ok() {
+                shortened.push(format!(
+                    "threads evaluate one row instead of {rows}, since the device takes too long to compile a loop"
+                ));
+                options.rows_of_thread = 1;
+            }
+        }
+        match found {
+            Ok(()) => kept.push((candidate, proved)),
+            Err(reason) if candidate == Candidate::WRITTEN => {
+                let message = format!("the ladder itself cannot be measured: {reason}");
+                let error = Diagnostic::error(codes::DEVICE, message);
+                let error = error.help("everything is compared with it; allow more time: `--compile-limit`");
+                return Err(Failure::new(program.source.clone(), error));
+            }
+            Err(reason) => skipped.push((candidate, reason)),
+        }
+    }
+    Ok((kept, skipped))
+}
+
+/// Tunes a table for a device. `compiles` is asked for each plan, `progress` is told what is being done.
 ///
 /// # Errors
 /// When a plan cannot be proved, a captured row lacks an input, or the device fails.
+#[allow(clippy::too_many_arguments)]
 pub fn tune<'p>(
     program: &'p Program,
     profile: Fitted,
@@ -156,11 +232,14 @@ pub fn tune<'p>(
     frames: Option<&Columns<f32>>,
     gpu: &Gpu,
     options: &Options,
+    compiles: &mut Compiles<'_>,
     mut progress: impl FnMut(&str),
 ) -> Result<Tuning<'p>, Failure> {
     let frames = frames.filter(|frames| !frames.is_empty());
     let mut source = inputs::Source::new(program);
-    let (mut proved, skipped) = plans(program, weights, options, &mut progress)?;
+    let (mut options, mut shortened) = (options.clone(), Vec::new());
+    let all = plans(program, weights, &options, &mut progress)?;
+    let (mut proved, mut skipped) = compiled(program, all, &mut options, &mut shortened, compiles, &mut progress)?;
 
     let captured = source.rows(Kind::Captured, options.rows, frames, &profile.profile);
     let rows: Vec<usize> = (0..captured.len().min(CHECKED)).collect();
@@ -190,6 +269,35 @@ pub fn tune<'p>(
     for plan in &plans {
         subjects.push(Timed::plan(gpu, &plan.proved, options.rows_of_thread)?);
     }
+    progress("measuring for the first time");
+    let load = Workload::new(gpu, program, &captured)?;
+    let mut first = Vec::new();
+    for subject in &subjects {
+        // Drivers compile when a pass is first run.
+        subject.time(gpu, &watch, &load, 1)?;
+        first.push(subject.time(gpu, &watch, &load, options.repeats)? * options.repeats);
+    }
+    // Warm-up rounds are of a quarter of the rows.
+    let passes = |rounds: usize| (Kind::ALL.len() * (rounds + 1 + options.protocol.warm_up.div_ceil(4))) as u32;
+    let share = options.time / passes(LEAST_ROUNDS) / 4;
+    let slow: Vec<usize> = (1..plans.len()).rev().filter(|index| first[index + 1] > share).collect();
+    for index in slow {
+        let reason = format!("a measurement takes {:.1} s", first[index + 1].as_secs_f64());
+        skipped.push((plans.remove(index).candidate, reason));
+        subjects.remove(index + 1);
+        first.remove(index + 1);
+    }
+    let round: Duration = first.iter().sum();
+    let (asked, most) = (options.protocol.rounds, options.time.as_secs_f64() / round.as_secs_f64().max(1e-9));
+    let fitting = (most as usize / Kind::ALL.len()).saturating_sub(passes(0) as usize / Kind::ALL.len());
+    if fitting < asked {
+        options.protocol.rounds = fitting.clamp(LEAST_ROUNDS.min(asked), asked);
+        let (rounds, seconds) = (options.protocol.rounds, round.as_secs_f64());
+        shortened.push(format!(
+            "{rounds} rounds instead of {asked}, since one takes {seconds:.1} s for each kind of inputs"
+        ));
+    }
+    drop(load);
     let mut floor = Vec::new();
     for kind in Kind::ALL {
         progress(&format!("measuring {kind} inputs"));
@@ -219,7 +327,7 @@ pub fn tune<'p>(
     Ok(Tuning {
         device: gpu.describe(),
         clock: watch.clock(),
-        options: options.clone(),
+        options,
         frames: frames.is_some(),
         profile,
         floor,
@@ -228,6 +336,7 @@ pub fn tune<'p>(
         wrong,
         chosen,
         whole: Vec::new(),
+        shortened,
     })
 }
 

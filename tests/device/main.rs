@@ -3,6 +3,7 @@
 
 mod adapter;
 mod diff;
+mod reordering;
 mod shadow_agreement;
 #[path = "../support/mod.rs"]
 mod support;

@@ -266,6 +266,22 @@ fn tuning_ranks_plans_and_keeps_the_choice() {
     assert_eq!(std::fs::read_to_string(&files[0]).unwrap(), "Tuned(");
 }
 
+/// What a device takes too long for is left out or done less often, and said; the command ends in any case.
+#[test]
+fn tuning_ends_in_time() {
+    let place = place();
+    let said = place.run(&format!("{TUNE} --compile-limit 0.01"));
+    assert_eq!(said.code, Some(2), "{}", said.out);
+    let expected = "the ladder itself cannot be measured: compiling takes longer than 0.01 s";
+    assert!(said.err.contains(expected) && said.err.contains("--compile-limit"), "{}", said.err);
+    assert!(!place.path("tuned").exists());
+    let said = place.run("tune smsr.ron --profile fence.ron --rows 1024 --rounds 10000 --plan ladder --time-limit 0.2");
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert!(said.out.contains("shortened: ") && said.out.contains(" rounds instead of 10000, "), "{}", said.out);
+    let said = place.run("tune smsr.ron --profile fence.ron --time-limit 0");
+    assert!(said.code == Some(2) && said.err.contains("not between 0.01 and 1000000 seconds"), "{}", said.err);
+}
+
 #[test]
 fn plans_are_measured_in_whole_shaders() {
     let place = place();

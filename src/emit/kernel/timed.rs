@@ -10,7 +10,8 @@
 //! A renderer has the inputs in registers, and reading them from memory would
 //! hide what a plan costs. So a thread evaluates several rows: of each it reads
 //! the key, and the numbers of the first one move on from one to the next.
-//! With one row per thread it is a pass over memory.
+//! With one row per thread it is a pass over memory, and has no loop: there are
+//! drivers that compile a table in a loop for minutes, and without in a second.
 
 use std::fmt::Write;
 
@@ -19,7 +20,7 @@ use crate::emit::language::wgsl::Wgsl;
 use crate::emit::language::{Dialect, Prefix, words};
 use crate::emit::module;
 use crate::emit::names::fetches;
-use crate::program::{Domain, Program};
+use crate::program::{Domain, Input, Program};
 use crate::prove::Proved;
 
 /// The shader that evaluates a plan once per row, a thread so many of them.
@@ -88,17 +89,25 @@ fn kernel(out: &mut String, program: &Program, layout: &Layout, rows: u32, evalu
     for index in 0..words.len() {
         line(format!("    var word_{index} = 0u;"));
     }
-    line(format!("    for (var step = 0u; step < {rows}u; step++) {{"));
-    line("        let row = step * threads + id.x;".to_owned());
+    if rows > 1 {
+        line(format!("    for (var step = 0u; step < {rows}u; step++) {{"));
+        line("        let row = step * threads + id.x;".to_owned());
+    } else {
+        line("    {".to_owned());
+        line("        let row = id.x;".to_owned());
+    }
     line(format!("        let key = $plain[1u + row * {}u];", layout.plain));
     line(format!("        {evaluation}"));
     for (index, word) in words.iter().enumerate() {
         line(format!("        word_{index} ^= {word};"));
     }
     // By the golden ratio, which comes by everywhere without repeating itself.
-    let ranges = program.inputs.iter().filter(|input| input.fetched.is_none()).filter_map(|input| match input.domain {
-        Domain::Continuous { lo, hi, .. } => Some((Wgsl::Plain.number(lo), Wgsl::Plain.number(hi - lo))),
-        Domain::Discrete(_) => None,
+    let moves = |_: &&Input| rows > 1;
+    let ranges = program.inputs.iter().filter(moves).filter(|input| input.fetched.is_none()).filter_map(|input| {
+        match input.domain {
+            Domain::Continuous { lo, hi, .. } => Some((Wgsl::Plain.number(lo), Wgsl::Plain.number(hi - lo))),
+            Domain::Discrete(_) => None,
+        }
     });
     for (index, (lo, width)) in ranges.enumerate() {
         let number = format!("number_{}", index + 1);
@@ -121,11 +130,17 @@ mod tests {
     fn both_shaders_are_valid() {
         for table in ["tables/smsr.ron", "tables/rsmss.ron"] {
             let program = Program::read(table).unwrap_or_else(|e| panic!("{e}"));
-            wgsl_module(&program, &wgsl_floor(&program, 4)).unwrap_or_else(|e| panic!("{e}"));
+            for rows in [1, 4] {
+                let floor = wgsl_floor(&program, rows);
+                assert_eq!(floor.contains("for ("), rows > 1);
+                wgsl_module(&program, &floor).unwrap_or_else(|e| panic!("{e}"));
+            }
             for shape in Shape::ALL {
                 let Ok(plan) = Plan::new(&program, shape) else { continue };
                 let proved = plan.prove().unwrap_or_else(|e| panic!("{e}"));
-                wgsl_module(&program, &wgsl_timed(&proved, 4)).unwrap_or_else(|e| panic!("{e}"));
+                for rows in [1, 4] {
+                    wgsl_module(&program, &wgsl_timed(&proved, rows)).unwrap_or_else(|e| panic!("{e}"));
+                }
             }
         }
     }

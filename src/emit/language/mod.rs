@@ -106,6 +106,16 @@ pub(super) trait Dialect {
     fn remainder(&self, _: &Prefix) -> String {
         String::new()
     }
+    /// The function `smoothstep` by its formula, which means something for any bounds.
+    fn smoothstep(&self, prefix: &Prefix) -> String {
+        let name = self.global(prefix, "smoothstep");
+        let parameters = ["lo", "hi", "a"].map(|name| (name.to_owned(), Type::FLOAT));
+        format!(
+            "// `smoothstep` by its formula: the language leaves its own undefined for bounds that do not ascend.\n{}\n    {}\n    return t * t * (3.0 - 2.0 * t);\n}}",
+            self.function(&name, &parameters, &Type::FLOAT, prefix),
+            self.local(&Type::FLOAT, "t", "clamp((a - lo) / (hi - lo), 0.0, 1.0)", prefix)
+        )
+    }
     /// A function for sine and cosine from additions, products and a rounding.
     fn sincos(&self, prefix: &Prefix) -> String {
         let name = self.global(prefix, "sincos");

@@ -27,6 +27,11 @@ impl Dialect for Rust {
         format!("[{of}; {length}]")
     }
 
+    /// Written in place, in `f64`.
+    fn smoothstep(&self, _: &Prefix) -> String {
+        String::new()
+    }
+
     fn site(&self, prefix: &Prefix) -> String {
         format!("&mut impl {}", prefix.site())
     }

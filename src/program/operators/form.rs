@@ -61,6 +61,11 @@ impl Spellings {
     /// The symbols of the table's language in every language.
     pub(super) const SYMBOL: Self = Self { wgsl: Spelling::Symbol, glsl: Spelling::Symbol, rust: Spelling::Symbol };
 
+    /// A function of the generated module in shading languages.
+    pub(super) const fn own(name: &'static str, rust: Spelling) -> Self {
+        Self { wgsl: Spelling::Own(name), glsl: Spelling::Own(name), rust }
+    }
+
     /// The name of the table's language in shading languages.
     pub(super) const fn shared(rust: Spelling) -> Self {
         Self { wgsl: Spelling::Same, glsl: Spelling::Same, rust }

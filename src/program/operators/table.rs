@@ -169,7 +169,8 @@ operators! {
         image: images::smoothstep,
         ascending: Some(Ascending { lower: 0, upper: 1, strictly: true }),
         algebra: Three::Opaque,
-        spellings: Spellings::shared(Text(
+        // Shading languages leave their own undefined where the first bound is not below the second.
+        spellings: Spellings::own("smoothstep", Text(
             "({ let t = ((f64::from({c} as f32) - f64::from({a} as f32)) / (f64::from({b} as f32) - f64::from({a} as f32))).max(0.0).min(1.0); (t * t * (3.0 - 2.0 * t)) as f32 })",
         )),
     };
