@@ -18,6 +18,7 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 pub(crate) mod claims;
+pub(crate) mod comparisons;
 pub mod data_type;
 mod domain;
 pub mod draw;

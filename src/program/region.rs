@@ -7,7 +7,7 @@
 //! answer "cannot hold" is always right, "can hold" is then not certain.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::normal::{Affine, Term};
 use super::rational::Rational;
@@ -15,6 +15,8 @@ use super::{Domain, InputId, Program};
 
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
 const MAX_CONSTRAINTS: usize = 512;
+/// Most pairs of constraints that one elimination may look at.
+const MAX_PAIRS: usize = 1 << 14;
 
 /// The sign of a form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -141,7 +143,7 @@ fn feasible<'a>(
     }
     for variable in &variables {
         let (mut above, mut below, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-        for constraint in constraints {
+        for constraint in tightest(constraints) {
             match constraint.form.terms.get(variable) {
                 Some(factor) if factor.is_positive() => above.push(constraint),
                 Some(_) => below.push(constraint),
@@ -150,19 +152,49 @@ fn feasible<'a>(
                 None => {}
             }
         }
+        if above.len() * below.len() > MAX_PAIRS {
+            return None;
+        }
         for a in &above {
             for b in &below {
                 kept.push(a.without(variable, b)?);
             }
         }
-        if kept.len() > MAX_CONSTRAINTS {
+        constraints = tightest(kept);
+        if constraints.len() > MAX_CONSTRAINTS {
             return None;
         }
-        constraints = kept;
         above.append(&mut below);
         steps.push((variable.clone(), above));
     }
     Some(!constraints.iter().any(Constraint::violated))
+}
+
+/// Of constraints that bound the same multiple of the same terms, the one from which the others follow.
+/// Many constants that one number is compared with leave two constraints, whatever their number.
+fn tightest(constraints: Vec<Constraint>) -> Vec<Constraint> {
+    let mut places: HashMap<BTreeMap<Term, Rational>, usize> = HashMap::new();
+    let mut kept: Vec<Constraint> = Vec::new();
+    for Constraint { form, strict } in constraints {
+        let scale = form.terms.values().next().and_then(|leading| leading.abs().reciprocal());
+        let Some(form) = scale.and_then(|scale| form.times(scale)) else {
+            kept.push(Constraint { form, strict });
+            continue;
+        };
+        match places.get(&form.terms) {
+            Some(place) => {
+                let known = &mut kept[*place];
+                if form.constant < known.form.constant || form.constant == known.form.constant && strict {
+                    *known = Constraint { form, strict };
+                }
+            }
+            None => {
+                places.insert(form.terms.clone(), kept.len());
+                kept.push(Constraint { form, strict });
+            }
+        }
+    }
+    kept
 }
 
 impl Constraint {

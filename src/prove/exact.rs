@@ -13,8 +13,9 @@
 //!   have the same normal form over the reals (then the difference in `f32` is
 //!   bounded).
 //!
-//! Comparisons that look different are treated as independent, which can refuse a
-//! right plan but never accept a wrong one.
+//! Comparisons of the same numbers, and of one number with several constants, answer each other where one
+//! follows from others ([`Comparisons`]). Others that look different are treated as independent, which can
+//! refuse a right plan but never accept a wrong one.
 
 use std::collections::HashMap;
 
@@ -22,6 +23,7 @@ use super::report::{Counterexample, MAX_PATHS, MAX_PATHS_OF_STATE, Proof, Refusa
 use super::{rounding, route};
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::claims::{Candidates, Places};
+use crate::program::comparisons::Comparisons;
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
 use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
@@ -48,13 +50,25 @@ enum Question {
     Compare(Comparison, ExprId, ExprId),
 }
 
+/// A question that was asked.
+struct Choice {
+    question: Question,
+    answer: u8,
+    /// The number of answers.
+    count: u8,
+    /// The answers to comparisons before this one.
+    before: Comparisons,
+}
+
 /// Answers questions, the same one always the same way, until told to advance.
 #[derive(Default)]
 struct Oracle {
     /// Level by input; fetched inputs are set when first asked.
     levels: Vec<u8>,
-    /// Questions asked so far, with the current answer and the number of answers.
-    choices: Vec<(Question, u8, u8)>,
+    /// Questions asked so far.
+    choices: Vec<Choice>,
+    /// The answers to comparisons.
+    compared: Comparisons,
     /// The place of each question among them.
     asked: HashMap<Question, usize>,
     /// Questions answered in this state so far.
@@ -72,30 +86,52 @@ impl Oracle {
             return answer;
         }
         self.asked.insert(question, self.choices.len());
-        self.choices.push((question, 0, count));
+        self.choices.push(Choice { question, answer: 0, count, before: self.compared.clone() });
         0
+    }
+
+    /// The outcome of a comparison, which may follow from others.
+    fn compare(&mut self, pool: &Pool, op: Comparison, a: ExprId, b: ExprId) -> bool {
+        if let Some(holds) = self.compared(pool, op, a, b) {
+            self.answered += 1;
+            return holds;
+        }
+        let holds = self.answer(Question::Compare(op, a, b), 2) == 0;
+        self.compared.learn(pool, op, a, b, holds);
+        holds
+    }
+
+    /// The outcome of a comparison, if this path has decided that already.
+    fn compared(&self, pool: &Pool, op: Comparison, a: ExprId, b: ExprId) -> Option<bool> {
+        let asked = self.known(Question::Compare(op, a, b)).map(|answer| answer == 0);
+        asked.or_else(|| self.compared.decide(pool, op, a, b))
     }
 
     /// The answer on this path, if the question was asked.
     fn known(&self, question: Question) -> Option<u8> {
-        self.asked.get(&question).map(|place| self.choices[*place].1)
+        self.asked.get(&question).map(|place| self.choices[*place].answer)
     }
 
     /// Forgets all paths.
     fn restart(&mut self) {
         self.choices.clear();
+        self.compared = Comparisons::default();
         self.asked.clear();
         self.answered = 0;
     }
 
     /// Moves on to the next sequence of answers; false if that was the last.
-    fn advance(&mut self) -> bool {
-        while let Some((question, answer, count)) = self.choices.last_mut() {
-            *answer += 1;
-            if *answer < *count {
+    fn advance(&mut self, pool: &Pool) -> bool {
+        while let Some(choice) = self.choices.last_mut() {
+            choice.answer += 1;
+            if choice.answer < choice.count {
+                self.compared = choice.before.clone();
+                if let Question::Compare(op, a, b) = choice.question {
+                    self.compared.learn(pool, op, a, b, choice.answer == 0);
+                }
                 return true;
             }
-            self.asked.remove(question);
+            self.asked.remove(&choice.question);
             self.choices.pop();
         }
         false
@@ -166,7 +202,7 @@ impl<'a, 'p> Prover<'a, 'p> {
         self.oracle.restart();
         loop {
             self.path(state)?;
-            if !self.oracle.advance() {
+            if !self.oracle.advance(&self.pool) {
                 return Ok(());
             }
             let paths = self.proof.paths;
@@ -265,7 +301,7 @@ impl<'a, 'p> Prover<'a, 'p> {
             state.push(format!("{} = {}", declared.name, declared.show(Value::Level(level))));
         }
         let printer = Printer { pool: &self.pool, inputs: &program.inputs };
-        for (question, answer, _) in &self.oracle.choices {
+        for Choice { question, answer, .. } in &self.oracle.choices {
             state.push(match question {
                 Question::Level(input) => {
                     let declared = &program.inputs[input.index()];
@@ -409,7 +445,7 @@ impl<'a, 'p> Prover<'a, 'p> {
                 let compared = self.pool.recompare(*op, a, b);
                 match self.pool.truth(compared) {
                     Some(value) => value,
-                    None => self.oracle.answer(Question::Compare(*op, a, b), 2) == 0,
+                    None => self.oracle.compare(&self.pool, *op, a, b),
                 }
             }
             Cond::Not(a) => !self.holds(*a, fetched),
@@ -468,7 +504,7 @@ impl<'a, 'p> Prover<'a, 'p> {
         match self.plan.pool.cond(condition) {
             Cond::Const(value) => Some(*value),
             Cond::Level(input, levels) => Some(levels.contains(self.oracle.levels[input.index()])),
-            Cond::Compare(op, a, b) => self.oracle.known(Question::Compare(*op, *a, *b)).map(|answer| answer == 0),
+            Cond::Compare(op, a, b) => self.oracle.compared(&self.pool, *op, *a, *b),
             Cond::Not(a) => self.decides(*a).map(|value| !value),
             Cond::And(parts) => match parts.iter().map(|part| self.decides(*part)).find(|d| *d != Some(true)) {
                 None => Some(true),
