@@ -21,7 +21,13 @@ const WORTH: usize = 4;
 const MAX_CARRIED: usize = 1 << 22;
 
 /// A place at which a number is divided: at a constant, which belongs to the lower part or to the upper one.
-type Cut = (f64, bool);
+#[derive(Clone, Copy)]
+struct Cut {
+    at: f32,
+    lower: bool,
+    /// The constant as it is written.
+    written: ExprId,
+}
 
 /// Makes steps for rows.
 pub(super) struct Search {
@@ -69,10 +75,9 @@ impl Search {
             return self.rows(builder, rows, known);
         }
         let middle = cuts.len() / 2;
-        let (constant, lower) = cuts[middle];
+        let Cut { lower, written, .. } = cuts[middle];
         let op = if lower { Comparison::LessEqual } else { Comparison::Less };
-        let constant = builder.pool.number(constant);
-        let condition = builder.pool.compare(op, number, constant);
+        let condition = builder.pool.compare(op, number, written);
         let mut side = |me: &mut Self, cuts: &[Cut], outcome: bool| {
             let known = known.with(&builder.pool, condition, outcome);
             let rows = me.narrowed(builder, rows, &known);
@@ -119,8 +124,8 @@ impl Search {
             return None;
         }
         let cuts = found.cuts.into_iter().map(|(number, mut cuts)| {
-            cuts.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            cuts.dedup();
+            cuts.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.lower.cmp(&b.lower)));
+            cuts.dedup_by_key(|cut| (cut.at, cut.lower));
             (number, cuts)
         });
         // Of equally many the number that was made first.
@@ -144,7 +149,7 @@ impl Found<'_, '_> {
         let builder = self.builder;
         let cond = builder.pool.cond(condition);
         if let Cond::Compare(op, a, b) = cond
-            && let Some((subject, relation, constant)) = question(&builder.pool, *op, *a, *b)
+            && let Some((subject, relation, at)) = question(&builder.pool, *op, *a, *b)
             && let Some(number) = self.searchable(subject)
             && self.known.compared(&builder.pool, *op, *a, *b).is_none()
         {
@@ -153,7 +158,9 @@ impl Found<'_, '_> {
                 Relation::AtMost | Relation::Above => &[true],
                 Relation::Equal => &[false, true],
             };
-            self.cuts.entry(number).or_default().extend(places.iter().map(|lower| (constant, *lower)));
+            let written = if *a == number { *b } else { *a };
+            let cuts = places.iter().map(|lower| Cut { at, lower: *lower, written });
+            self.cuts.entry(number).or_default().extend(cuts);
         }
         cond.children().for_each(|part| self.look(part));
     }
