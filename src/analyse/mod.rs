@@ -16,7 +16,7 @@ pub mod trial;
 pub(crate) mod values;
 mod words;
 
-use crate::diag::{Diagnostic, Severity, codes};
+use crate::diag::{Code, Diagnostic, Severity, codes};
 use crate::program::Program;
 use findings::{Analysis, Run};
 use sets::study::Study;
@@ -52,7 +52,7 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 /// # Ok::<(), umbrage::diag::Failure>(())
 /// ```
 pub fn report(program: &Program, levels: &LintLevels) -> Findings {
-    let mut found = Vec::new();
+    let (mut found, mut left_out) = (Vec::new(), Vec::new());
     let mut study = None;
     for Analysis { codes, run } in findings::ALL {
         let more = match run {
@@ -60,11 +60,20 @@ pub fn report(program: &Program, levels: &LintLevels) -> Findings {
             // A function has no cases that could contradict each other, and `accuracy` and `singular` look at its numbers.
             Run::Sets(_) if program.function.is_some() => continue,
             Run::Sets(run) => {
-                let study = study.get_or_insert_with(|| Study::new(program));
+                let study = study.get_or_insert_with(|| {
+                    let study = Study::new(program);
+                    (!study.space.is_too_large()).then_some(study)
+                });
+                // Without its cases as sets, nothing else is worth anything either.
+                let Some(study) = study.as_mut() else {
+                    left_out.extend(*codes);
+                    continue;
+                };
+                study.space.begin();
                 let more = run(study);
                 if study.space.is_too_large() {
-                    found.push(not_analysed(program));
-                    break;
+                    left_out.extend(*codes);
+                    continue;
                 }
                 more
             }
@@ -74,6 +83,10 @@ pub fn report(program: &Program, levels: &LintLevels) -> Findings {
             "a code that the analysis does not name"
         );
         found.extend(more);
+    }
+    left_out.retain(|code| *code != codes::NOT_ANALYSED);
+    if !left_out.is_empty() {
+        found.push(not_analysed(program, &left_out));
     }
     drop_duplicates(&mut found);
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
@@ -94,10 +107,13 @@ fn drop_duplicates(found: &mut Vec<Diagnostic>) {
     found.retain(|finding| finding.code != codes::NOT_ANALYSED || said.insert(finding.message.clone()));
 }
 
-fn not_analysed(program: &Program) -> Diagnostic {
-    Diagnostic::note(codes::NOT_ANALYSED, "the table is too intricate for some analyses, which were left out")
+/// The note that some analyses stopped, or could not begin.
+fn not_analysed(program: &Program, left_out: &[Code]) -> Diagnostic {
+    let codes: Vec<String> = left_out.iter().map(Code::to_string).collect();
+    let message = format!("the table is too intricate to look for {}", words::list(&codes));
+    Diagnostic::note(codes::NOT_ANALYSED, message)
         .at(program.hit_policy_span, "")
-        .help("sets of its inputs, or the values of one of its lines, take more than the limits allow")
+        .help("sets of its inputs, or the values of one of its lines, take more work than the limits allow")
         .help("split the table, or write conditions on fewer inputs")
 }
 

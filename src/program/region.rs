@@ -53,9 +53,13 @@ struct Constraint {
     strict: bool,
 }
 
-/// Returns whether the forms can have these signs at one point of the program's domain.
-pub(crate) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> bool {
-    feasible(program, signs, &mut Vec::new()).unwrap_or(true)
+/// Steps of an operation on sets that looking at a constraint, or at a pair of them, takes as long as.
+const STEPS: usize = 20;
+
+/// Returns whether the forms can have these signs at one point of the program's domain. Adds to `work` what
+/// that took, in steps of an operation on sets.
+pub(crate) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>, work: &mut u64) -> bool {
+    feasible(program, signs, &mut Vec::new(), work).unwrap_or(true)
 }
 
 /// A point of the program's domain at which the forms have these signs, by
@@ -66,7 +70,7 @@ pub(crate) fn point<'a>(
     signs: impl Iterator<Item = (&'a Affine, Sign)>,
 ) -> Option<BTreeMap<InputId, Rational>> {
     let mut steps = Vec::new();
-    if feasible(program, signs, &mut steps) != Some(true) {
+    if feasible(program, signs, &mut steps, &mut 0) != Some(true) {
         return None;
     }
     let mut point: BTreeMap<Term, Rational> = BTreeMap::new();
@@ -114,6 +118,7 @@ fn feasible<'a>(
     program: &Program,
     signs: impl Iterator<Item = (&'a Affine, Sign)>,
     steps: &mut Vec<Step>,
+    work: &mut u64,
 ) -> Option<bool> {
     let minus = Rational::whole(-1);
     let mut constraints = Vec::new();
@@ -152,9 +157,11 @@ fn feasible<'a>(
                 None => {}
             }
         }
-        if above.len() * below.len() > MAX_PAIRS {
+        let pairs = above.len() * below.len();
+        if pairs > MAX_PAIRS {
             return None;
         }
+        *work += ((pairs + kept.len() + above.len() + below.len()) * STEPS) as u64;
         for a in &above {
             for b in &below {
                 kept.push(a.without(variable, b)?);
@@ -234,7 +241,7 @@ mod tests {
             output: Number(), cases: [Case(id: 1, when: "x < y", value: 1)], default: 0)"#;
         let table = Table::parse(Source::new("t", text)).unwrap_or_else(|e| panic!("{e}"));
         let program = Program::check(&table).unwrap_or_else(|e| panic!("{e}"));
-        let can = |signs: &[(Affine, Sign)]| can_hold(&program, signs.iter().map(|(form, sign)| (form, *sign)));
+        let can = |signs: &[(Affine, Sign)]| can_hold(&program, signs.iter().map(|(form, sign)| (form, *sign)), &mut 0);
         use Sign::{Negative, Positive, Zero};
         assert!(can(&[(affine(1, 1, -2), Zero)]));
         assert!(!can(&[(affine(1, 1, -2), Positive)]));

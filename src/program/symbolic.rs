@@ -333,7 +333,7 @@ impl<'p> Machine<'p> {
         for sign in 0..Sign::ALL.len() as u8 {
             key[last].1 = sign;
             let signs = key.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
-            if region::can_hold(self.program, signs) {
+            if region::can_hold(self.program, signs, &mut 0) {
                 possible.0 |= 1 << sign;
             }
         }

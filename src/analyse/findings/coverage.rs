@@ -96,7 +96,7 @@ fn dead(study: &mut Study<'_>) -> Vec<Dead> {
 fn covering(study: &mut Study<'_>, row: usize, within: Set) -> Vec<usize> {
     let guard = study.space.sets.and(study.rows.guards[row], within);
     let mut found = Vec::new();
-    let earlier: Vec<usize> = study.nearby.of(row).take_while(|other| *other < row).collect();
+    let earlier: Vec<usize> = study.rows.nearby.of(row).take_while(|other| *other < row).collect();
     for earlier in earlier {
         let taken = study.rows.taken[earlier];
         if study.space.sets.meets(guard, taken) {

@@ -51,7 +51,7 @@ fn mergeable(study: &mut Study<'_>) -> Vec<Diagnostic> {
         }
         earlier.sort_unstable_by_key(|(first, ..)| *first);
         let free = |(first, ..): &&(usize, usize, LevelSet)| {
-            let mut between = study.nearby.of(number).filter(|row| (first + 1..number).contains(row));
+            let mut between = study.rows.nearby.of(number).filter(|row| (first + 1..number).contains(row));
             !between.any(|row| study.space.sets.meets(study.rows.guards[row], guard))
         };
         let Some((first, place, levels)) = earlier.iter().find(free).copied() else { continue };

@@ -90,7 +90,11 @@ fn changed_searches_are_refused() {
         broken.steps[step.0 as usize] = match broken.steps[step.0 as usize].clone() {
             Step::Test { condition, then, other } => Step::Test { condition, then: other, other: then },
             Step::Leaf(leaf) => Step::Leaf(Leaf { line: None, row: leaf.row.map_or(Some(3), |_| None), ..leaf }),
-            other => other,
+            step @ (Step::Fetch { .. }
+            | Step::Gather { .. }
+            | Step::Switch { .. }
+            | Step::Coefficients { .. }
+            | Step::Orbit { .. }) => step,
         };
         assert!(broken.prove().is_err(), "{step:?}");
     }
