@@ -70,8 +70,9 @@ pub struct Findings {
 /// Sets aside what the table acknowledges, then applies the levels of the user.
 ///
 /// An `allow` of a case acknowledges the findings whose first place is in that
-/// case, one of the table those whose first place is in none.
-pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, levels: &LintLevels) -> Findings {
+/// case, one of the table those whose first place is in none. Of codes that were not
+/// looked for, nothing is said to acknowledge nothing.
+pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code], levels: &LintLevels) -> Findings {
     let mut findings = Findings::default();
     let mut used: Vec<bool> = Vec::new();
     let allows: Vec<(Option<usize>, &Allow)> = program
@@ -98,7 +99,7 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, levels: &LintLevel
         }
     }
     for ((row, allow), used) in allows.iter().zip(used) {
-        if !used {
+        if !used && !left_out.iter().any(|code| code.0 == allow.code.value) {
             findings.open.push(unused(program, *row, allow));
         }
     }

@@ -19,6 +19,7 @@ mod words;
 use crate::diag::{Code, Diagnostic, Severity, codes};
 use crate::program::Program;
 use findings::{Analysis, Run};
+use sets::budget::STEPS;
 use sets::study::Study;
 
 pub use findings::accuracy::allowance;
@@ -52,6 +53,11 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 /// # Ok::<(), umbrage::diag::Failure>(())
 /// ```
 pub fn report(program: &Program, levels: &LintLevels) -> Findings {
+    report_within(program, levels, STEPS)
+}
+
+/// The same, with so many steps for each analysis of sets.
+fn report_within(program: &Program, levels: &LintLevels, steps: u64) -> Findings {
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     let mut study = None;
     for Analysis { codes, run } in findings::ALL {
@@ -61,7 +67,7 @@ pub fn report(program: &Program, levels: &LintLevels) -> Findings {
             Run::Sets(_) if program.function.is_some() => continue,
             Run::Sets(run) => {
                 let study = study.get_or_insert_with(|| {
-                    let study = Study::new(program);
+                    let study = Study::within(program, steps);
                     (!study.space.is_too_large()).then_some(study)
                 });
                 // Without its cases as sets, nothing else is worth anything either.
@@ -90,7 +96,7 @@ pub fn report(program: &Program, levels: &LintLevels) -> Findings {
     }
     drop_duplicates(&mut found);
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-    lints::sort(program, found, levels)
+    lints::sort(program, found, &left_out, levels)
 }
 
 /// Drops findings of `numbers` about a division by zero that `singular` reports, too:
@@ -132,4 +138,32 @@ fn found(text: &str) -> Vec<String> {
     let program = Table::parse(Source::new("test.ron", text)).and_then(|table| Program::check(&table));
     let program = program.unwrap_or_else(|e| panic!("{e}"));
     findings(&program).iter().map(|d| format!("{} {}", d.code, d.message)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The published tables take a hundredth of what an analysis may do; with less than they take, what was
+    /// not looked for is named, and nothing else is claimed of it.
+    #[test]
+    fn an_analysis_stops_and_says_for_what_it_was_looking() {
+        for table in ["tables/rsmss.ron", "tables/published/rsmss_as_printed.ron"] {
+            let program = Program::read(table).unwrap_or_else(|e| panic!("{e}"));
+            let found = |steps: u64| {
+                let found = report_within(&program, &LintLevels::default(), steps);
+                let shown = |finding: &Diagnostic| format!("{} {}", finding.code, finding.message);
+                found.open.iter().map(shown).collect::<Vec<_>>()
+            };
+            let all = found(STEPS);
+            assert_eq!(found(STEPS / 10), all, "{table}");
+            for steps in [1, 1000, 100_000] {
+                let some = found(steps);
+                let note = some.iter().find(|message| message.starts_with("U0530")).expect("it stopped");
+                assert!(note.contains("too intricate to look for U0") && !note.contains("U0530 U0530"), "{note}");
+                let others = some.iter().filter(|message| *message != note);
+                assert!(others.clone().all(|message| all.contains(message)), "{table} {steps}: {some:?}");
+            }
+        }
+    }
 }

@@ -15,6 +15,8 @@ use super::{Domain, InputId, Program};
 
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
 const MAX_CONSTRAINTS: usize = 512;
+/// So many constraints are eliminated as they are.
+const FEW: usize = 12;
 /// Most pairs of constraints that one elimination may look at.
 const MAX_PAIRS: usize = 1 << 14;
 
@@ -180,6 +182,9 @@ fn feasible<'a>(
 /// Of constraints that bound the same multiple of the same terms, the one from which the others follow.
 /// Many constants that one number is compared with leave two constraints, whatever their number.
 fn tightest(constraints: Vec<Constraint>) -> Vec<Constraint> {
+    if constraints.len() <= FEW {
+        return constraints;
+    }
     let mut places: HashMap<BTreeMap<Term, Rational>, usize> = HashMap::new();
     let mut kept: Vec<Constraint> = Vec::new();
     for Constraint { form, strict } in constraints {

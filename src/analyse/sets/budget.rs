@@ -7,22 +7,23 @@ use std::cell::Cell;
 
 /// Most steps of one analysis: a step of an operation on sets, or what takes as long. A table of some
 /// thirty cases takes a hundredth of it.
-const STEPS: u64 = 40_000_000;
+pub(in crate::analyse) const STEPS: u64 = 40_000_000;
 
 /// The steps that an analysis has left.
 #[derive(Debug)]
 pub(in crate::analyse) struct Budget {
+    steps: u64,
     left: Cell<u64>,
 }
 
 impl Budget {
-    pub(super) fn new() -> Self {
-        Self { left: Cell::new(STEPS) }
+    pub(super) fn new(steps: u64) -> Self {
+        Self { steps, left: Cell::new(steps) }
     }
 
     /// Starts anew, for another analysis.
     pub(super) fn refill(&self) {
-        self.left.set(STEPS);
+        self.left.set(self.steps);
     }
 
     /// Takes some steps; false if there are none left.

@@ -5,7 +5,7 @@
 //! that is simple to describe is small, whatever the product is. The digits
 //! are tested in ascending order; a digit that does not matter is not tested.
 
-mod budget;
+pub(crate) mod budget;
 pub(crate) mod nearby;
 pub(crate) mod space;
 pub(crate) mod study;
@@ -101,7 +101,7 @@ impl Sets {
             index: vec![0; 1 << 10],
             memo: Map::default(),
             full: false,
-            budget: Budget::new(),
+            budget: Budget::new(budget::STEPS),
         }
     }
 
@@ -119,6 +119,11 @@ impl Sets {
     /// Returns whether sets were given up for their size. Then no answer is worth anything.
     pub(super) fn is_full(&self) -> bool {
         self.full
+    }
+
+    /// Lets each analysis take so many steps.
+    pub(super) fn limit(&mut self, steps: u64) {
+        self.budget = Budget::new(steps);
     }
 
     /// The work that may still be done.

@@ -1,6 +1,7 @@
 //! The start of all analyses of a program: its rows as sets.
 
 use super::Set;
+use super::budget::STEPS;
 use super::nearby::Nearby;
 use super::space::{Space, View};
 use crate::program::{ExprId, Program};
@@ -140,7 +141,13 @@ pub(in crate::analyse) struct Study<'p> {
 
 impl<'p> Study<'p> {
     pub(in crate::analyse) fn new(program: &'p Program) -> Self {
+        Self::within(program, STEPS)
+    }
+
+    /// The same, with so many steps for this and for each analysis.
+    pub(in crate::analyse) fn within(program: &'p Program, steps: u64) -> Self {
         let mut space = Space::new(program);
+        space.sets.limit(steps);
         let rows = Rows::new(&mut space, View::PLAIN);
         let pieces = rows.pieces(&mut space, View::PLAIN);
         let assumed = assumed(&mut space, View::PLAIN);
