@@ -14,19 +14,19 @@
 //!   bounded).
 //!
 //! Comparisons of the same numbers, and of one number with several constants, answer each other where one
-//! follows from others ([`Comparisons`]). Others that look different are treated as independent, which can
+//! follows from others ([`Comparisons`](crate::program::comparisons::Comparisons)). Others that look different are treated as independent, which can
 //! refuse a right plan but never accept a wrong one.
 
 use std::collections::HashMap;
 
+use super::oracle::{Choice, Oracle, Question};
 use super::report::{Counterexample, MAX_PATHS, MAX_PATHS_OF_STATE, Proof, Refusal};
 use super::{rounding, route};
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::claims::{Candidates, Places};
-use crate::program::comparisons::Comparisons;
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Value};
 
 /// The fault of a lookup.
 const NO_WAY: &str = "the plan's lookup has no way for this state";
@@ -41,101 +41,6 @@ pub(super) fn prove(plan: &Plan<'_>, states: &[usize]) -> Result<Proof, Refusal>
         prover.state(*state)?;
     }
     Ok(prover.proof)
-}
-
-/// A fact that a state leaves open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Question {
-    Level(InputId),
-    Compare(Comparison, ExprId, ExprId),
-}
-
-/// A question that was asked.
-struct Choice {
-    question: Question,
-    answer: u8,
-    /// The number of answers.
-    count: u8,
-    /// The answers to comparisons before this one.
-    before: Comparisons,
-}
-
-/// Answers questions, the same one always the same way, until told to advance.
-#[derive(Default)]
-struct Oracle {
-    /// Level by input; fetched inputs are set when first asked.
-    levels: Vec<u8>,
-    /// Questions asked so far.
-    choices: Vec<Choice>,
-    /// The answers to comparisons.
-    compared: Comparisons,
-    /// The place of each question among them.
-    asked: HashMap<Question, usize>,
-    /// Questions answered in this state so far.
-    answered: usize,
-}
-
-impl Oracle {
-    fn new(program: &Program) -> Self {
-        Self { levels: vec![0; program.inputs.len()], ..Self::default() }
-    }
-
-    fn answer(&mut self, question: Question, count: u8) -> u8 {
-        self.answered += 1;
-        if let Some(answer) = self.known(question) {
-            return answer;
-        }
-        self.asked.insert(question, self.choices.len());
-        self.choices.push(Choice { question, answer: 0, count, before: self.compared.clone() });
-        0
-    }
-
-    /// The outcome of a comparison, which may follow from others.
-    fn compare(&mut self, pool: &Pool, op: Comparison, a: ExprId, b: ExprId) -> bool {
-        if let Some(holds) = self.compared(pool, op, a, b) {
-            self.answered += 1;
-            return holds;
-        }
-        let holds = self.answer(Question::Compare(op, a, b), 2) == 0;
-        self.compared.learn(pool, op, a, b, holds);
-        holds
-    }
-
-    /// The outcome of a comparison, if this path has decided that already.
-    fn compared(&self, pool: &Pool, op: Comparison, a: ExprId, b: ExprId) -> Option<bool> {
-        let asked = self.known(Question::Compare(op, a, b)).map(|answer| answer == 0);
-        asked.or_else(|| self.compared.decide(pool, op, a, b))
-    }
-
-    /// The answer on this path, if the question was asked.
-    fn known(&self, question: Question) -> Option<u8> {
-        self.asked.get(&question).map(|place| self.choices[*place].answer)
-    }
-
-    /// Forgets all paths.
-    fn restart(&mut self) {
-        self.choices.clear();
-        self.compared = Comparisons::default();
-        self.asked.clear();
-        self.answered = 0;
-    }
-
-    /// Moves on to the next sequence of answers; false if that was the last.
-    fn advance(&mut self, pool: &Pool) -> bool {
-        while let Some(choice) = self.choices.last_mut() {
-            choice.answer += 1;
-            if choice.answer < choice.count {
-                self.compared = choice.before.clone();
-                if let Question::Compare(op, a, b) = choice.question {
-                    self.compared.learn(pool, op, a, b, choice.answer == 0);
-                }
-                return true;
-            }
-            self.asked.remove(&choice.question);
-            self.choices.pop();
-        }
-        false
-    }
 }
 
 /// Proves a plan state by state.
