@@ -99,11 +99,11 @@ fn report_within(program: &Program, levels: &LintLevels, steps: u64) -> Findings
     lints::sort(program, found, &left_out, levels)
 }
 
-/// Drops findings of `numbers` about a division by zero that `singular` reports, too:
-/// of the same place, it knows the limit as well.
+/// Drops findings of `numbers` about a division by zero that `singular` reports, too: of the same place,
+/// it knows the limit as well. And those of formulas that are one number, where that is beyond the clamp.
 fn drop_duplicates(found: &mut Vec<Diagnostic>) {
-    let limits = [codes::REMOVABLE, codes::POLE];
     let place = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
+<<<<<<< HEAD
     let known: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(place).collect();
     let divides = |finding: &Diagnostic| finding.labels.iter().any(|label| label.message.contains("division by zero"));
     let is_known = |finding: &Diagnostic| place(finding).is_some_and(|p| known.contains(&p));
@@ -111,6 +111,14 @@ fn drop_duplicates(found: &mut Vec<Diagnostic>) {
     // What was not analysed is said once of a case, however many of its lines and components it is true of.
     let mut said = std::collections::HashSet::new();
     found.retain(|finding| finding.code != codes::NOT_ANALYSED || said.insert(finding.message.clone()));
+=======
+    for (needless, better) in
+        [(codes::NOT_A_NUMBER, &[codes::REMOVABLE, codes::POLE][..]), (codes::SETTLED, &[codes::OUT_OF_RANGE])]
+    {
+        let known: Vec<_> = found.iter().filter(|f| better.contains(&f.code)).filter_map(place).collect();
+        found.retain(|finding| finding.code != needless || !place(finding).is_some_and(|p| known.contains(&p)));
+    }
+>>>>>>> 55ede9b (An allow names what it acknowledges; formulas that are one number are found)
 }
 
 /// The note that some analyses stopped, or could not begin.

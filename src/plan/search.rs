@@ -31,7 +31,7 @@ struct Cut {
 
 /// Makes steps for rows.
 pub(super) struct Search {
-    /// What may still be gone through.
+    /// The rows and lines that may still be gone through.
     left: usize,
     /// The numbers that were searched for, each with the most cuts and the most tests that took.
     searched: BTreeMap<ExprId, (usize, u32)>,

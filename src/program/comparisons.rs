@@ -1,4 +1,4 @@
-//! What the outcomes of some comparisons say about others.
+//! The outcomes of comparisons, and those of others that follow from them.
 //!
 //! `x < c`, `x <= c`, `x == c`, `x >= c` and `x > c` are one question about `x` and `c`, whose answer is
 //! less, equal, greater, or unordered where `x` is no number; and constants have an order, so that
@@ -13,7 +13,7 @@ use std::rc::Rc;
 use super::operators::ANY;
 use super::{Comparison, ExprId, Pool};
 
-/// What a comparison is about: a number that is compared with constants, or two numbers of which
+/// The subject of a comparison: a number that is compared with constants, or two numbers of which
 /// the difference is, with 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Subject(ExprId, Option<ExprId>);
@@ -82,7 +82,7 @@ struct End {
     open: bool,
 }
 
-/// What a subject can still be.
+/// The values that a subject can still have.
 #[derive(Debug, Clone, PartialEq)]
 struct Possible {
     lo: Option<End>,
@@ -155,7 +155,7 @@ pub(crate) struct Comparisons {
     newest: Option<Rc<Known>>,
 }
 
-/// What is known of a subject, and what was known before.
+/// The knowledge of a subject, and what was known before.
 #[derive(Debug)]
 struct Known {
     subject: Subject,

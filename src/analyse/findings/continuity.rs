@@ -247,12 +247,15 @@ type Tell<'a> = &'a dyn Fn(&mut Space<'_>, Set) -> Option<(String, Option<String
 fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell: Tell<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut largest: BTreeMap<Pair, (f64, Set, Sides)> = BTreeMap::new();
+    let mut all: BTreeMap<Pair, BTreeMap<Sides, f64>> = BTreeMap::new();
     for jump in &jumps {
         if study.space.is_too_large() {
             return Vec::new();
         }
         let (size, set) = size(study, jump);
         let (a, b) = (jump.sides[0].0, jump.sides[1].0);
+        let of_lines = all.entry((a.min(b), a.max(b))).or_default().entry(jump.sides).or_insert(size);
+        *of_lines = of_lines.max(size);
         let entry = largest.entry((a.min(b), a.max(b))).or_insert((size, set, jump.sides));
         if size > entry.0 {
             *entry = (size, set, jump.sides);
@@ -270,7 +273,12 @@ fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell
             _ => format!("between {} and {}", words::cases(program, &[a]), words::cases(program, &[b])),
         };
         let message = format!("the value jumps{far} {between} across `{}`", continuity.map.name);
-        let mut warning = Diagnostic::warning(codes::JUMP, message);
+        let about = all[&(a, b)].iter().map(|([here, there], size)| {
+            let (here, there) = (words::called(program, *here), words::called(program, *there));
+            let far = if numbers { format!(" by {}", words::short(*size)) } else { String::new() };
+            format!("{here} to {there}{far}")
+        });
+        let mut warning = Diagnostic::warning(codes::JUMP, message).about([continuity.map.name.clone()]).about(about);
         for (row, line) in sides {
             let span = match (row.map(|row| &program.rows[row]), line) {
                 (Some(row), Some(line)) => row.lines[line].span,

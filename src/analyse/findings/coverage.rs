@@ -243,9 +243,10 @@ fn uncovered(study: &mut Study<'_>, unclaimed: Set) -> Diagnostic {
             note.help(format!("these are the states with {}, and further ones", some.join(", or ")))
         }
     };
+    let note = note.about([words::states(count)]);
     let note = match program.assumptions.is_empty() {
         true => note,
-        false => note.help(format!("the assumptions admit {admitted} of them")),
+        false => note.help(format!("the assumptions admit {admitted} of them")).about([format!("{admitted} admitted")]),
     };
     note.help(regions::row(program, claim.as_deref()))
 }

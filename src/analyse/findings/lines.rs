@@ -58,6 +58,7 @@ fn no_line(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> 
                 None => format!("in {}", words::states(count)),
             })
             .help(format!("where {}", shown.join(", or ")))
+            .about(shown.into_iter().chain([words::states(count)]))
             .help("add a line for this, or a last line without a condition"),
     )
 }
@@ -115,7 +116,8 @@ fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic>
             pairs[1..].iter().map(|(first, second, _)| format!("{} with {}", first + 1, second + 1)).collect();
         warning = warning.help(format!("also lines {}", words::list(&others)));
     }
-    Some(warning.help("make the conditions exclude each other, or acknowledge that the order decides"))
+    let about = pairs.iter().map(|(first, second, _)| format!("lines {} and {}", first + 1, second + 1));
+    Some(warning.about(about).help("make the conditions exclude each other, or acknowledge that the order decides"))
 }
 
 /// The part of a set in which the values of two lines differ.
@@ -170,11 +172,13 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
     let holds = study.space.sets.and(condition, study.rows.taken[row]);
     let holds = if study.space.is_void(holds) { holds } else { study.space.sets.and(holds, study.assumed) };
     let message = format!("line {} of case {} never counts", number + 1, case.id);
-    let warning = Diagnostic::warning(codes::DEAD_LINE, message);
+    let warning = Diagnostic::warning(codes::DEAD_LINE, message).about([format!("line {}", number + 1)]);
     if !study.space.is_void(counts) {
-        let blamed: Vec<String> = study.blame(counts).into_iter().map(|name| format!("`{name}`")).collect();
+        let blamed = study.blame(counts);
+        let quoted: Vec<String> = blamed.iter().map(|name| format!("`{name}`")).collect();
         return warning
-            .at(line.span, format!("{} rules this out", words::list(&blamed)))
+            .at(line.span, format!("{} rules this out", words::list(&quoted)))
+            .about(blamed)
             .help("mend its condition or the assumption, or remove the line");
     }
     if study.space.is_void(holds) {
@@ -197,3 +201,53 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
     }
     warning.help("mend the conditions, move the line up, or remove it")
 }
+<<<<<<< HEAD
+=======
+
+/// Choices inside a value that never go one way. What a name of the table
+/// stands for is left alone: it may be needed elsewhere.
+fn dead_choices(study: &mut Study<'_>, place: (usize, usize), value: ExprId, within: Set, found: &mut Vec<Diagnostic>) {
+    if study.space.pool.label(value).is_some() || !study.space.pool.expr_facts(value).selects {
+        return;
+    }
+    match study.space.pool.node(value) {
+        node @ (Node::Const(_)
+        | Node::Input(_)
+        | Node::Result
+        | Node::Unary(..)
+        | Node::Binary(..)
+        | Node::Ternary(..)) => node.children().for_each(|part| dead_choices(study, place, part, within, found)),
+        Node::Select(condition, a, b) => {
+            let holds = study.space.condition(condition, View::PLAIN);
+            let (then, other) = (study.space.sets.and(within, holds), study.space.sets.minus(within, holds));
+            if study.space.is_void(then) {
+                found.push(dead_choice(study, place, condition, then));
+            } else {
+                dead_choices(study, place, a, then, found);
+            }
+            // The end of a chain may be there for completeness only.
+            if !study.space.is_void(other) {
+                dead_choices(study, place, b, other, found);
+            }
+        }
+    }
+}
+
+fn dead_choice(study: &mut Study<'_>, (row, line): (usize, usize), condition: CondId, never: Set) -> Diagnostic {
+    let program = study.program;
+    let case = &program.rows[row];
+    let asked = Printer { pool: &study.space.pool, inputs: &program.inputs }.cond(condition);
+    let message = format!("a part of the value of case {} never counts", case.id);
+    let warning = Diagnostic::warning(codes::DEAD_LINE, message)
+        .at(case.lines[line].span, format!("where this is asked, `{asked}` never holds"))
+        .about([format!("line {}", line + 1), asked]);
+    let warning = match never.is_empty() {
+        true => warning.at(case.guard_span, "given this guard and the choices before"),
+        false => {
+            let blamed: Vec<String> = study.blame(never).into_iter().map(|name| format!("`{name}`")).collect();
+            warning.help(format!("{} rules it out", words::list(&blamed)))
+        }
+    };
+    warning.help("remove this choice, or mend the guard")
+}
+>>>>>>> 55ede9b (An allow names what it acknowledges; formulas that are one number are found)

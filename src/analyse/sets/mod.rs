@@ -48,7 +48,7 @@ pub(super) struct Sets {
     index: Vec<u32>,
     memo: Map<(Operation, Set, Set), Set>,
     full: bool,
-    /// What the analysis that asks may still do.
+    /// The work that the analysis that asks may still do.
     budget: Budget,
 }
 

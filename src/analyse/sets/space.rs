@@ -69,7 +69,7 @@ pub(in crate::analyse) struct Space<'p> {
     questions: Vec<Question>,
     forms: Vec<Affine>,
     form_digits: HashMap<Affine, usize>,
-    /// What each form is about, without its constant, by number.
+    /// The number of the form without its constant, for each form.
     numbers_of_forms: Vec<usize>,
     numbers: HashMap<BTreeMap<Term, Rational>, usize>,
     opaque_digits: HashMap<(ExprId, ExprId), usize>,

@@ -77,7 +77,7 @@ impl Rows {
     }
 }
 
-/// What is in one of some sets: by halves, as what is about neighbouring constants is small.
+/// The union of some sets: by halves, as those of neighbouring constants have small ones.
 fn union(space: &mut Space<'_>, sets: &[Set]) -> Set {
     match sets {
         [] => Set::EMPTY,

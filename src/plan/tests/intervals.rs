@@ -46,7 +46,7 @@ fn intervals_have_a_path_each_and_are_searched() {
     assert_eq!(tree.notes[0], "at most 9 tests find where `x` lies among 301 comparisons with constants");
 }
 
-/// What is fetched only where a case needs it stays so, below a search and in a chain.
+/// An input that only some cases need is fetched for these only, below a search and in a chain.
 #[test]
 fn intervals_and_fetched_inputs_go_together() {
     let program = program(&intervals(40, " && (s || q)"));

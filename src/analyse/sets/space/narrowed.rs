@@ -1,4 +1,4 @@
-//! What signs of forms leave of the numbers that the forms are about.
+//! The intervals that signs of forms leave of the numbers that the forms are about.
 //!
 //! Forms that differ in their constant only, such as `x - 0.25` and `x - 0.5`, are about one number. Their
 //! signs leave an interval of it, which is found by comparing constants, whatever their number. Where no
