@@ -145,6 +145,7 @@ registry! {
 >>>>>>> 55ede9b (An allow names what it acknowledges; formulas that are one number are found)
     MERGEABLE = "U0521", Finding, Note, "cases that could be one (a note)";
     RENAMED = "U0522", Finding, Note, "a name that a target language has to change (a note)";
+    REPEATED = "U0523", Finding, Warning, "a condition that asks for the same thing twice";
     NOT_ANALYSED = "U0530", Finding, Note, "an analysis that could not be done, with the reason (a note)";
     UNUSED_ALLOW = "U0531", Finding, Warning, "an `allow` that acknowledges nothing";
     WIDE_ALLOW = "U0532", Finding, Note, "an `allow` that does not say what it acknowledges (a note)";

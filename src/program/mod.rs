@@ -133,6 +133,8 @@ pub struct Written {
     pub unused_helpers: Vec<Spanned<String>>,
     /// Numbers that no `f32` equals.
     pub inexact: Vec<(f64, Span)>,
+    /// Operands of `&&` and `||` that stand there twice, with the first place.
+    pub repeated: Vec<(Span, Span)>,
     /// The choices, an `if` or `select` each, in the order written.
     pub choices: Vec<Choice>,
 }
