@@ -83,8 +83,8 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
         .flat_map(|(row, case)| case.allow.iter().map(move |allow| (Some(row), allow)))
         .chain(program.allow.iter().map(|allow| (None, allow)))
         .collect();
-    // For each of them, the findings that it acknowledges.
-    let mut uses: Vec<Vec<usize>> = vec![Vec::new(); allows.len()];
+    // For each of them, what the findings of its code and place are about, if there are any.
+    let mut about: Vec<Option<Vec<String>>> = vec![None; allows.len()];
     for finding in found {
         let place = finding.labels.first().map(|label| label.span);
         let row = place.and_then(|place| {
@@ -92,11 +92,13 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
         });
         let of_code = |(of, allow): &&(Option<usize>, &Allow)| *of == row && allow.code.value == finding.code.0;
         let covers = |(_, allow): &(Option<usize>, &Allow)| unnamed(allow, &finding).is_empty();
+        for (number, _) in allows.iter().enumerate().filter(|(_, entry)| of_code(entry)) {
+            about[number].get_or_insert_default().extend(finding.about.iter().cloned());
+        }
         let fits = allows.iter().position(|entry| of_code(&entry) && covers(entry));
         match fits {
             // What contradicts the table's own declarations cannot be talked away.
             Some(number) if finding.severity != Severity::Error => {
-                uses[number].push(findings.acknowledged.len());
                 findings.acknowledged.push((finding, allows[number].1.reason.clone()));
             }
             _ => {
@@ -105,13 +107,10 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
             }
         }
     }
-    for ((row, allow), uses) in allows.iter().zip(uses) {
-        if left_out.iter().any(|code| code.0 == allow.code.value) {
-            continue;
+    for ((row, allow), about) in allows.iter().zip(about) {
+        if !left_out.iter().any(|code| code.0 == allow.code.value) {
+            findings.open.extend(questionable(program, *row, allow, about.as_deref()));
         }
-        let about: Vec<&str> =
-            uses.iter().flat_map(|finding| &findings.acknowledged[*finding].0.about).map(String::as_str).collect();
-        findings.open.extend(questionable(program, *row, allow, (!uses.is_empty()).then_some(&about)));
     }
     levels.apply(&mut findings.open);
     findings
@@ -153,17 +152,17 @@ fn quoted(things: &[&str]) -> String {
 }
 
 /// The finding about an `allow`: that it acknowledges nothing, names what is not there, or does not say what it
-/// acknowledges. `about` is what its findings are about, if it has any.
-fn questionable(program: &Program, row: Option<usize>, allow: &Allow, about: Option<&Vec<&str>>) -> Option<Diagnostic> {
+/// acknowledges. `about` is what the findings of its code and place are about, if there are any.
+fn questionable(program: &Program, row: Option<usize>, allow: &Allow, about: Option<&[String]>) -> Option<Diagnostic> {
     let code = &allow.code.value;
     let Some(about) = about else { return Some(unused(program, row, allow)) };
     let Some(with) = &allow.with else {
         let mut things: Vec<&str> = Vec::new();
-        about.iter().for_each(|thing| {
-            if !things.contains(thing) {
-                things.push(thing)
+        for thing in about {
+            if !things.contains(&thing.as_str()) {
+                things.push(thing);
             }
-        });
+        }
         let message = format!("this `allow` acknowledges every finding of {code} here, also new ones");
         return (!things.is_empty()).then(|| {
             Diagnostic::note(codes::WIDE_ALLOW, message)
@@ -171,7 +170,7 @@ fn questionable(program: &Program, row: Option<usize>, allow: &Allow, about: Opt
                 .help(format!("to acknowledge those that there are: with: {}", listed(&things)))
         });
     };
-    let gone = with.iter().filter(|thing| !about.contains(&thing.value.as_str()));
+    let gone = with.iter().filter(|thing| !about.contains(&thing.value));
     let gone: Vec<&Spanned<String>> = gone.collect();
     let first = gone.first()?;
     let things: Vec<&str> = gone.iter().map(|thing| thing.value.as_str()).collect();
@@ -225,8 +224,7 @@ mod tests {
         );
         assert_eq!(checked("!a && !b && c", narrow), [""; 0]);
         // Line 3 crosses as well: that is new, and all of it is shown, but the `allow` is not called needless.
-        let found = checked("c", narrow);
-        assert_eq!(found.first().map(String::as_str), Some(more), "{found:?}");
+        assert_eq!(checked("c", narrow), [more]);
         // Without names it covers everything, which is said.
         let wide = checked("c", r#"(code: "U0508", reason: "so it is printed")"#);
         assert_eq!(wide, ["U0532 this `allow` acknowledges every finding of U0508 here, also new ones"]);

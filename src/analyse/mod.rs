@@ -103,22 +103,20 @@ fn report_within(program: &Program, levels: &LintLevels, steps: u64) -> Findings
 /// it knows the limit as well. And those of formulas that are one number, where that is beyond the clamp.
 fn drop_duplicates(found: &mut Vec<Diagnostic>) {
     let place = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
-<<<<<<< HEAD
-    let known: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(place).collect();
+    let known = |found: &[Diagnostic], better: &[Code]| -> Vec<_> {
+        found.iter().filter(|finding| better.contains(&finding.code)).filter_map(place).collect()
+    };
+    let limits = known(found, &[codes::REMOVABLE, codes::POLE]);
+    let clamped = known(found, &[codes::OUT_OF_RANGE]);
     let divides = |finding: &Diagnostic| finding.labels.iter().any(|label| label.message.contains("division by zero"));
-    let is_known = |finding: &Diagnostic| place(finding).is_some_and(|p| known.contains(&p));
-    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !(divides(finding) && is_known(finding)));
+    found.retain(|finding| {
+        let is_in = |places: &[_]| place(finding).is_some_and(|place| places.contains(&place));
+        let limit = finding.code == codes::NOT_A_NUMBER && divides(finding) && is_in(&limits);
+        !limit && !(finding.code == codes::SETTLED && is_in(&clamped))
+    });
     // What was not analysed is said once of a case, however many of its lines and components it is true of.
     let mut said = std::collections::HashSet::new();
     found.retain(|finding| finding.code != codes::NOT_ANALYSED || said.insert(finding.message.clone()));
-=======
-    for (needless, better) in
-        [(codes::NOT_A_NUMBER, &[codes::REMOVABLE, codes::POLE][..]), (codes::SETTLED, &[codes::OUT_OF_RANGE])]
-    {
-        let known: Vec<_> = found.iter().filter(|f| better.contains(&f.code)).filter_map(place).collect();
-        found.retain(|finding| finding.code != needless || !place(finding).is_some_and(|p| known.contains(&p)));
-    }
->>>>>>> 55ede9b (An allow names what it acknowledges; formulas that are one number are found)
 }
 
 /// The note that some analyses stopped, or could not begin.

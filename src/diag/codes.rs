@@ -137,12 +137,8 @@ registry! {
     NOT_A_NUMBER = "U0514", Finding, Warning, "an operation that can yield infinity or NaN";
     FLOAT_EQUALITY = "U0515", Finding, Warning, "numbers that are compared for equality";
     JUMP = "U0516", Finding, Warning, "the value jumps at a border or switch where it is declared not to";
-<<<<<<< HEAD
-    INEXACT = "U0520", Finding, Note, "a constant that no `f32` equals (a note), or an integer that `f32` takes for another one";
-=======
     SETTLED = "U0517", Finding, Warning, "a formula that is one number wherever it counts";
-    INEXACT = "U0520", Finding, Note, "a constant that no `f32` equals (a note)";
->>>>>>> 55ede9b (An allow names what it acknowledges; formulas that are one number are found)
+    INEXACT = "U0520", Finding, Note, "a constant that no `f32` equals (a note), or an integer that `f32` takes for another one";
     MERGEABLE = "U0521", Finding, Note, "cases that could be one (a note)";
     RENAMED = "U0522", Finding, Note, "a name that a target language has to change (a note)";
     REPEATED = "U0523", Finding, Warning, "a condition that asks for the same thing twice";

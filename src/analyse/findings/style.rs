@@ -205,11 +205,15 @@ mod tests {
             ));
             found.iter().filter(|message| message.starts_with("U0523")).count()
         };
-        for guard in [r#""a && b && a""#, r#""s == 1 || b || x < 0.5 || s == 1""#, r#""!(b && (s in {1, 2} && s in {1, 2}))""#] {
+        for guard in
+            [r#""a && b && a""#, r#""s == 1 || b || x < 0.5 || s == 1""#, r#""!(b && (s in {1, 2} && s in {1, 2}))""#]
+        {
             assert_eq!(twice(guard), 1, "{guard}");
         }
         // The same value of different inputs, and what a name stands for.
-        for guard in [r#"{"a": true, "b": true}"#, r#""n && a""#, r#""a && b || a && s == 1""#, r#""x < 0.5 && x < 0.75""#] {
+        for guard in
+            [r#"{"a": true, "b": true}"#, r#""n && a""#, r#""a && b || a && s == 1""#, r#""x < 0.5 && x < 0.75""#]
+        {
             assert_eq!(twice(guard), 0, "{guard}");
         }
     }
