@@ -274,7 +274,7 @@ fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell
         };
         let message = format!("the value jumps{far} {between} across `{}`", continuity.map.name);
         let about = all[&(a, b)].iter().map(|([here, there], size)| {
-            let (here, there) = (words::called(program, *here), words::called(program, *there));
+            let (here, there) = (words::named(program, *here), words::named(program, *there));
             let far = if numbers { format!(" by {}", words::short(*size)) } else { String::new() };
             format!("{here} to {there}{far}")
         });

@@ -273,7 +273,7 @@ fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnos
         by(program, &odd.along),
         numbers(&opponent.says)
     );
-    let against = odd.against.iter().map(|other| format!("against {}", words::called(program, *other)));
+    let against = odd.against.iter().map(|other| format!("against {}", words::named(program, *other)));
     let warning = warning.about([format!("{was}, not {should}")]).about(against);
     Some(warning.help(what).help(match line {
         Some(_) => format!("to mend it, write `{should}` for `{was}` there"),
@@ -315,7 +315,7 @@ fn undecided(
     let at = place_at(study, point, here.0);
     let about = lines.iter().map(|(place, gives)| {
         let gives: Vec<&str> = gives.iter().map(String::as_str).collect();
-        format!("{} gives {}", words::called(program, *place), gives.join(" or "))
+        format!("{} gives {}", words::named(program, *place), gives.join(" or "))
     });
     Some(
         warning
