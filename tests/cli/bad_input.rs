@@ -44,6 +44,10 @@ demo.ron:4:17: note[U0503]: no case claims 1 of the 6 states; they get the defau
  = these are the states with side == none && !far
  = to claim them: Case(id: 4, when: \"side == none && !far\", value: ...)
  = if it is understood and stays: allow: [(code: \"U0503\", with: [\"1 state\"], reason: \"...\")]
+demo.ron:4:17: note[U0503]: no case claims `side != none && !far && x >= 0.5`, or `side != none && !seen && x >= 0.5`; the default decides there
+ = for instance side=left,far=false,x=0.71484375,seen=false
+ = to claim them: Case(id: 4, when: Any([\"side != none && !far && x >= 0.5\", \"side != none && !seen && x >= 0.5\"]), value: ...)
+ = if it is understood and stays: allow: [(code: \"U0503\", with: [\"side != none && !far && x >= 0.5\", \"side != none && !seen && x >= 0.5\"], reason: \"...\")]
 demo.ron:20:47: note[U0521]: cases 1 and 3 could be one
  = they give the same, and together their guards say `side != none && x < 0.5`
 ";

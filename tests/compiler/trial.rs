@@ -21,7 +21,7 @@ fn the_report_on_errata_is_current() {
     let table = Table::read("tables/smsr.ron").or_panic();
     let tallies = trial::survey(&table, 60, 7, |_| {}).or_panic();
     let (harmful, caught) = tallies.iter().fold((0, 0), |(h, c), (_, t)| (h + t.harmful(), c + t.caught()));
-    assert!(caught * 10 >= harmful * 7, "{caught} of {harmful} seeded mistakes are caught");
+    assert!(caught * 100 >= harmful * 97, "{caught} of {harmful} seeded mistakes are caught");
 }
 
 /// What a table acknowledges of itself hides nothing that is put into it later: mistakes in cases whose
