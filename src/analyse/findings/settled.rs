@@ -24,7 +24,7 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 if program.pool.expr_facts(*value).inputs.and(numbers).is_empty() {
                     continue;
                 }
-                let Some(constant) = settled(study, (row, number), component) else { continue };
+                let Some(constant) = settled(study, (row, number), component, numbers) else { continue };
                 let place = words::called(program, (Some(row), Some(number)));
                 let constant = words::short(constant);
                 let message = format!("the formula of {place} is {constant} wherever it counts");
@@ -40,17 +40,20 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// The number that a component of a line is wherever it counts, if it is one.
-fn settled(study: &mut Study<'_>, (row, line): (usize, usize), component: usize) -> Option<f64> {
+/// The number that a component of a line is wherever it counts, if it is one. What choices leave of the formula
+/// must still mention numbers: a named value may well be a constant in one case and a formula in others.
+fn settled(study: &mut Study<'_>, (row, line): (usize, usize), component: usize, numbers: InputSet) -> Option<f64> {
     let pieces: Vec<Piece> =
         study.pieces_of(Some(row)).iter().filter(|piece| piece.line == Some(line)).cloned().collect();
     let mut known: Option<f64> = None;
+    let mut is_formula = false;
     for piece in pieces {
         let set = study.space.sets.and(piece.set, study.assumed);
         if study.space.is_void(set) {
             continue;
         }
         let value = piece.values[component];
+        is_formula |= !study.space.pool.expr_facts(value).inputs.and(numbers).is_empty();
         let candidates = match known {
             Some(constant) => vec![constant],
             None => candidates(study, value),
@@ -62,7 +65,7 @@ fn settled(study: &mut Study<'_>, (row, line): (usize, usize), component: usize)
             study.space.is_void(different)
         })?);
     }
-    known
+    known.filter(|_| is_formula)
 }
 
 /// The numbers that a value can be everywhere: what it is without inputs, and the ends of its clamp.
@@ -109,7 +112,15 @@ mod tests {
         }
         // By the assumption.
         assert_eq!(settled("x - 0.25"), ["U0517 the formula of line 1 of case 1 is 0 wherever it counts"]);
-        for value in ["x + y - 1", "1", "if y < 0.75 { 1 } else { x }", "x + y", "y - x", "max(x, 0.25) + x"] {
+        for value in [
+            "x + y - 1",
+            "1",
+            "if y < 0.75 { 1 } else { x }",
+            "x + y",
+            "y - x",
+            "max(x, 0.25) + x",
+            "if s { 0.25 } else { x }",
+        ] {
             assert_eq!(settled(value), [""; 0], "{value}");
         }
     }
