@@ -2,7 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  meaning 1 764331cbc2cabb33, 31 cases
-// Inputs: fnv1a 1f88156d9d03c5c7, of texts, weights and options
+// Inputs: fnv1a a33592e9822713e5, of texts, weights and options
 // Plan:   gathered
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Cost:   expected tests 7.204, as written 20.427; optimal

@@ -2,7 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  meaning 1 764331cbc2cabb33, 31 cases
-// Inputs: fnv1a 5349e8c6d49087ed, of texts, weights and options
+// Inputs: fnv1a 3e2c6bf15ce30b15, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
 
@@ -81,11 +81,11 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         return RsmssResult(1.0, 1u);
     }
     if ((b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && (V == RSMSS_V_BOTH)) {
-        // case 2: a single lit texel: close it (section 3, case 2; rsmss.ron:177)
+        // case 2: a single lit texel: close it (section 3, case 2; rsmss.ron:182)
         return RsmssResult(0.0, 2u);
     }
     if ((b == RSMSS_B_EXITING) && (H == RSMSS_H_BOTH) && (V == RSMSS_V_BOTH)) {
-        // case 3: a single shadowed texel: remove it (section 3, case 3; rsmss.ron:181)
+        // case 3: a single shadowed texel: remove it (section 3, case 3; rsmss.ron:186)
         return RsmssResult(1.0, 3u);
     }
     if ((b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && (V == RSMSS_V_NONE) && (tV == RSMSS_TH_DUAL_POSITIVE)) {
@@ -93,72 +93,72 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         if (n_top == RSMSS_H_BOTH) {
             uint n_bottom = rsmss_fetch_n_bottom(site);
             if (n_bottom == RSMSS_H_BOTH) {
-                // case 4, line 1: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:188)
+                // case 4, line 1: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:193)
                 return RsmssResult(0.0, 4u);
             }
             if (n_bottom == RSMSS_H_LEFT) {
-                // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:189)
+                // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:194)
                 return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 4u);
             }
             if (n_bottom == RSMSS_H_RIGHT) {
-                // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
+                // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:195)
                 return RsmssResult(clamp(py - px, 0.0, 1.0), 4u);
             }
-            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:185)
+            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
             return RsmssResult(1.0, 4u);
         }
         uint n_bottom = rsmss_fetch_n_bottom(site);
         if (n_bottom == RSMSS_H_LEFT) {
-            // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:189)
+            // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:194)
             return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 4u);
         }
         if (n_bottom == RSMSS_H_RIGHT) {
-            // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
+            // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:195)
             return RsmssResult(clamp(py - px, 0.0, 1.0), 4u);
         }
         if (n_top == RSMSS_H_LEFT) {
-            // case 4, line 4: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:191)
+            // case 4, line 4: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:196)
             return RsmssResult(clamp(px - py, 0.0, 1.0), 4u);
         }
         if (n_top == RSMSS_H_RIGHT) {
-            // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:192)
+            // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:197)
             return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 4u);
         }
-        // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:185)
+        // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
         return RsmssResult(1.0, 4u);
     }
     if ((b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && (tV == RSMSS_TH_DUAL_POSITIVE)) {
         if (V == RSMSS_V_TOP) {
             uint n_bottom = rsmss_fetch_n_bottom(site);
             if (n_bottom == RSMSS_H_BOTH) {
-                // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:206)
+                // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:221)
                 return RsmssResult(clamp(min(min((1.0 + px) - dV, (2.0 - px) - dV), py), 0.0, 1.0), 5u);
             }
             if (n_bottom == RSMSS_H_LEFT) {
-                // case 5, line 2: the closed end of a vertical gap (section 3, case 5; rsmss.ron:207)
+                // case 5, line 2: the closed end of a vertical gap (section 3, case 5; rsmss.ron:222)
                 return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 5u);
             }
             if (n_bottom == RSMSS_H_RIGHT) {
-                // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:208)
+                // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:223)
                 return RsmssResult(clamp(py - px, 0.0, 1.0), 5u);
             }
-            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:203)
+            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:218)
             return RsmssResult(1.0, 5u);
         }
         uint n_top = rsmss_fetch_n_top(site);
         if (n_top == RSMSS_H_BOTH) {
-            // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:206)
+            // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:221)
             return RsmssResult(clamp(min(min((1.0 + px) - dV, (2.0 - px) - dV), 1.0 - py), 0.0, 1.0), 5u);
         }
         if (n_top == RSMSS_H_LEFT) {
-            // case 5, line 4: the closed end of a vertical gap (section 3, case 5; rsmss.ron:209)
+            // case 5, line 4: the closed end of a vertical gap (section 3, case 5; rsmss.ron:224)
             return RsmssResult(clamp(px - py, 0.0, 1.0), 5u);
         }
         if (n_top == RSMSS_H_RIGHT) {
-            // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:210)
+            // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:225)
             return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 5u);
         }
-        // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:203)
+        // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:218)
         return RsmssResult(1.0, 5u);
     }
     if ((b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (tH == RSMSS_TH_DUAL_POSITIVE)) {
@@ -166,343 +166,343 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
         if (n_left == RSMSS_V_BOTH) {
             uint n_right = rsmss_fetch_n_right(site);
             if (n_right == RSMSS_V_BOTH) {
-                // case 6, line 1: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:223)
+                // case 6, line 1: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:262)
                 return RsmssResult(0.0, 6u);
             }
             if (n_right == RSMSS_V_TOP) {
-                // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:224)
+                // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:263)
                 return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 6u);
             }
             if (n_right == RSMSS_V_BOTTOM) {
-                // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:226)
+                // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:265)
                 return RsmssResult(clamp(px - py, 0.0, 1.0), 6u);
             }
-            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:220)
+            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:259)
             return RsmssResult(1.0, 6u);
         }
         uint n_right = rsmss_fetch_n_right(site);
         if (n_right == RSMSS_V_TOP) {
-            // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:224)
+            // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:263)
             return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 6u);
         }
         if (n_left == RSMSS_V_TOP) {
-            // case 6, line 3: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:225)
+            // case 6, line 3: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:264)
             return RsmssResult(clamp(py - px, 0.0, 1.0), 6u);
         }
         if (n_right == RSMSS_V_BOTTOM) {
-            // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:226)
+            // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:265)
             return RsmssResult(clamp(px - py, 0.0, 1.0), 6u);
         }
         if (n_left == RSMSS_V_BOTTOM) {
-            // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:227)
+            // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:266)
             return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 6u);
         }
-        // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:220)
+        // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:259)
         return RsmssResult(1.0, 6u);
     }
     if ((b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && (tH == RSMSS_TH_DUAL_POSITIVE)) {
         if (H == RSMSS_H_LEFT) {
             uint n_right = rsmss_fetch_n_right(site);
             if (n_right == RSMSS_V_BOTH) {
-                // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:240)
+                // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:285)
                 return RsmssResult(clamp(min(min((1.0 + py) - dH, (2.0 - py) - dH), px), 0.0, 1.0), 7u);
             }
             if (n_right == RSMSS_V_TOP) {
-                // case 7, line 2: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:241)
+                // case 7, line 2: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:286)
                 return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 7u);
             }
             if (n_right == RSMSS_V_BOTTOM) {
-                // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:243)
+                // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:288)
                 return RsmssResult(clamp(px - py, 0.0, 1.0), 7u);
             }
-            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:237)
+            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:282)
             return RsmssResult(1.0, 7u);
         }
         uint n_left = rsmss_fetch_n_left(site);
         if (n_left == RSMSS_V_BOTH) {
-            // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:240)
+            // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:285)
             return RsmssResult(clamp(min(min((1.0 + py) - dH, (2.0 - py) - dH), 1.0 - px), 0.0, 1.0), 7u);
         }
         if (n_left == RSMSS_V_TOP) {
-            // case 7, line 3: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:242)
+            // case 7, line 3: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:287)
             return RsmssResult(clamp(py - px, 0.0, 1.0), 7u);
         }
         if (n_left == RSMSS_V_BOTTOM) {
-            // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:244)
+            // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:289)
             return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 7u);
         }
-        // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:237)
+        // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:282)
         return RsmssResult(1.0, 7u);
     }
     if ((b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && (tV == RSMSS_TH_POSITIVE_NEGATIVE)) {
         uint d_cb_h = rsmss_fetch_d_cb_h(site);
         if (d_cb_h == RSMSS_H_NONE) {
-            // case 8, line 1: the tip of a vertical gap (section 3, case 8; rsmss.ron:257)
+            // case 8, line 1: the tip of a vertical gap (section 3, case 8; rsmss.ron:306)
             return RsmssResult(clamp(1.0 - dV, 0.0, 1.0), 8u);
         }
         if (d_cb_h == RSMSS_H_RIGHT) {
-            // case 8, line 2: the tip of a vertical gap (section 3, case 8; rsmss.ron:258)
+            // case 8, line 2: the tip of a vertical gap (section 3, case 8; rsmss.ron:307)
             float w = V == RSMSS_V_TOP ? py : 1.0 - py;
             return RsmssResult(clamp(min(w, (2.0 - px) - dV), 0.0, 1.0), 8u);
         }
         if (d_cb_h == RSMSS_H_LEFT) {
-            // case 8, line 3: the tip of a vertical gap (section 3, case 8; rsmss.ron:259)
+            // case 8, line 3: the tip of a vertical gap (section 3, case 8; rsmss.ron:308)
             float w = V == RSMSS_V_TOP ? py : 1.0 - py;
             return RsmssResult(clamp(min(w, (1.0 + px) - dV), 0.0, 1.0), 8u);
         }
-        // case 8, line 4: the tip of a vertical gap (section 3, case 8; rsmss.ron:260)
+        // case 8, line 4: the tip of a vertical gap (section 3, case 8; rsmss.ron:309)
         float w = V == RSMSS_V_TOP ? py : 1.0 - py;
         return RsmssResult(clamp(w, 0.0, 1.0), 8u);
     }
     if ((b == RSMSS_B_ENTERING) && (H == RSMSS_H_BOTH) && (V == RSMSS_V_NONE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE)) {
         uint d_cb_top = rsmss_fetch_d_cb_top(site);
         if (d_cb_top == RSMSS_H_NONE) {
-            // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:274)
+            // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:341)
             return RsmssResult(clamp(1.0 - dV, 0.0, 1.0), 9u);
         }
         uint d_cb_bottom = rsmss_fetch_d_cb_bottom(site);
         if (d_cb_bottom == RSMSS_H_NONE) {
-            // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:274)
+            // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:341)
             return RsmssResult(clamp(1.0 - dV, 0.0, 1.0), 9u);
         }
         if ((d_cb_top == RSMSS_H_LEFT) || (d_cb_bottom == RSMSS_H_LEFT)) {
-            // case 9, line 2: inside a vertical gap (section 3, case 9; rsmss.ron:275)
+            // case 9, line 2: inside a vertical gap (section 3, case 9; rsmss.ron:342)
             return RsmssResult(clamp((1.0 + px) - dV, 0.0, 1.0), 9u);
         }
         if ((d_cb_top == RSMSS_H_RIGHT) || (d_cb_bottom == RSMSS_H_RIGHT)) {
-            // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:276)
+            // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:343)
             return RsmssResult(clamp((2.0 - px) - dV, 0.0, 1.0), 9u);
         }
-        // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:271)
+        // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:338)
         return RsmssResult(1.0, 9u);
     }
     if ((b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && (tH == RSMSS_TH_POSITIVE_NEGATIVE)) {
         uint d_cb_v = rsmss_fetch_d_cb_v(site);
         if (d_cb_v == RSMSS_V_NONE) {
-            // case 10, line 1: the tip of a horizontal gap (section 3, case 10; rsmss.ron:289)
+            // case 10, line 1: the tip of a horizontal gap (section 3, case 10; rsmss.ron:365)
             return RsmssResult(clamp(1.0 - dH, 0.0, 1.0), 10u);
         }
         if (d_cb_v == RSMSS_V_TOP) {
-            // case 10, line 2: the tip of a horizontal gap (section 3, case 10; rsmss.ron:290)
+            // case 10, line 2: the tip of a horizontal gap (section 3, case 10; rsmss.ron:366)
             float u = H == RSMSS_H_LEFT ? px : 1.0 - px;
             return RsmssResult(clamp(min(u, (1.0 + py) - dH), 0.0, 1.0), 10u);
         }
         if (d_cb_v == RSMSS_V_BOTTOM) {
-            // case 10, line 3: the tip of a horizontal gap (section 3, case 10; rsmss.ron:291)
+            // case 10, line 3: the tip of a horizontal gap (section 3, case 10; rsmss.ron:367)
             float u = H == RSMSS_H_LEFT ? px : 1.0 - px;
             return RsmssResult(clamp(min(u, (2.0 - py) - dH), 0.0, 1.0), 10u);
         }
-        // case 10, line 4: the tip of a horizontal gap (section 3, case 10; rsmss.ron:292)
+        // case 10, line 4: the tip of a horizontal gap (section 3, case 10; rsmss.ron:368)
         float u = H == RSMSS_H_LEFT ? px : 1.0 - px;
         return RsmssResult(clamp(u, 0.0, 1.0), 10u);
     }
     if ((b == RSMSS_B_ENTERING) && (V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (tH == RSMSS_TH_POSITIVE_NEGATIVE)) {
         uint d_cb_left = rsmss_fetch_d_cb_left(site);
         if (d_cb_left == RSMSS_V_NONE) {
-            // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:302)
+            // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:379)
             return RsmssResult(clamp(1.0 - dH, 0.0, 1.0), 11u);
         }
         uint d_cb_right = rsmss_fetch_d_cb_right(site);
         if (d_cb_right == RSMSS_V_NONE) {
-            // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:302)
+            // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:379)
             return RsmssResult(clamp(1.0 - dH, 0.0, 1.0), 11u);
         }
         if ((d_cb_left == RSMSS_V_TOP) || (d_cb_right == RSMSS_V_TOP)) {
-            // case 11, line 2: inside a horizontal gap (section 3, case 11; rsmss.ron:303)
+            // case 11, line 2: inside a horizontal gap (section 3, case 11; rsmss.ron:380)
             return RsmssResult(clamp((1.0 + py) - dH, 0.0, 1.0), 11u);
         }
         if ((d_cb_left == RSMSS_V_BOTTOM) || (d_cb_right == RSMSS_V_BOTTOM)) {
-            // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:304)
+            // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:381)
             return RsmssResult(clamp((2.0 - py) - dH, 0.0, 1.0), 11u);
         }
-        // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:299)
+        // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:376)
         return RsmssResult(1.0, 11u);
     }
     if ((b == RSMSS_B_EXITING) && (H == RSMSS_H_BOTH) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM))) {
         if (V == RSMSS_V_TOP) {
             uint n_bottom = rsmss_fetch_n_bottom(site);
             if (n_bottom == RSMSS_H_NONE) {
-                // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:319)
+                // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:397)
                 return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
             }
             if (n_bottom == RSMSS_H_RIGHT) {
-                // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:320)
+                // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:398)
                 float B_h = tV == RSMSS_TH_DUAL_POSITIVE ? px : (dV + px) - 1.0;
                 return RsmssResult(clamp(max(1.0 - py, B_h), 0.0, 1.0), 12u);
             }
             if (n_bottom == RSMSS_H_LEFT) {
-                // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:321)
+                // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:399)
                 float A_h = tV == RSMSS_TH_DUAL_POSITIVE ? 1.0 - px : dV - px;
                 return RsmssResult(clamp(max(1.0 - py, A_h), 0.0, 1.0), 12u);
             }
             uint d_cb_h = rsmss_fetch_d_cb_h(site);
             if (d_cb_h == RSMSS_H_NONE) {
-                // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:322)
+                // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:400)
                 return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
             }
             if (d_cb_h == RSMSS_H_LEFT) {
-                // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:323)
+                // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:401)
                 return RsmssResult(clamp(max(1.0 - py, 1.0 - px), 0.0, 1.0), 12u);
             }
             if (d_cb_h == RSMSS_H_RIGHT) {
-                // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:324)
+                // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:402)
                 return RsmssResult(clamp(max(1.0 - py, px), 0.0, 1.0), 12u);
             }
-            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:316)
+            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:394)
             return RsmssResult(0.0, 12u);
         }
         uint n_top = rsmss_fetch_n_top(site);
         if (n_top == RSMSS_H_NONE) {
-            // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:319)
+            // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:397)
             return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
         }
         if (n_top == RSMSS_H_RIGHT) {
-            // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:320)
+            // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:398)
             float B_h = tV == RSMSS_TH_DUAL_POSITIVE ? px : (dV + px) - 1.0;
             return RsmssResult(clamp(max(1.0 - (1.0 - py), B_h), 0.0, 1.0), 12u);
         }
         if (n_top == RSMSS_H_LEFT) {
-            // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:321)
+            // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:399)
             float A_h = tV == RSMSS_TH_DUAL_POSITIVE ? 1.0 - px : dV - px;
             return RsmssResult(clamp(max(1.0 - (1.0 - py), A_h), 0.0, 1.0), 12u);
         }
         uint d_cb_h = rsmss_fetch_d_cb_h(site);
         if (d_cb_h == RSMSS_H_NONE) {
-            // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:322)
+            // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:400)
             return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
         }
         if (d_cb_h == RSMSS_H_LEFT) {
-            // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:323)
+            // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:401)
             return RsmssResult(clamp(max(1.0 - (1.0 - py), 1.0 - px), 0.0, 1.0), 12u);
         }
         if (d_cb_h == RSMSS_H_RIGHT) {
-            // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:324)
+            // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:402)
             return RsmssResult(clamp(max(1.0 - (1.0 - py), px), 0.0, 1.0), 12u);
         }
-        // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:316)
+        // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:394)
         return RsmssResult(0.0, 12u);
     }
     if ((b == RSMSS_B_EXITING) && (H == RSMSS_H_BOTH) && (V == RSMSS_V_NONE)) {
         uint d_cb_h = rsmss_fetch_d_cb_h(site);
         if (d_cb_h == RSMSS_H_NONE) {
-            // case 13, line 1: inside a thin vertical shadow (section 3, case 13; rsmss.ron:335)
+            // case 13, line 1: inside a thin vertical shadow (section 3, case 13; rsmss.ron:426)
             return RsmssResult(clamp(dV, 0.0, 1.0), 13u);
         }
         if (d_cb_h == RSMSS_H_LEFT) {
-            // case 13, line 2: inside a thin vertical shadow (section 3, case 13; rsmss.ron:336)
+            // case 13, line 2: inside a thin vertical shadow (section 3, case 13; rsmss.ron:427)
             float A_h = tV == RSMSS_TH_DUAL_POSITIVE ? 1.0 - px : dV - px;
             return RsmssResult(clamp(A_h, 0.0, 1.0), 13u);
         }
         if (d_cb_h == RSMSS_H_RIGHT) {
-            // case 13, line 3: inside a thin vertical shadow (section 3, case 13; rsmss.ron:337)
+            // case 13, line 3: inside a thin vertical shadow (section 3, case 13; rsmss.ron:428)
             float B_h = tV == RSMSS_TH_DUAL_POSITIVE ? px : (dV + px) - 1.0;
             return RsmssResult(clamp(B_h, 0.0, 1.0), 13u);
         }
-        // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:332)
+        // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:423)
         return RsmssResult(0.0, 13u);
     }
     if ((b == RSMSS_B_EXITING) && (V == RSMSS_V_BOTH) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT))) {
         if (H == RSMSS_H_LEFT) {
             uint n_right = rsmss_fetch_n_right(site);
             if (n_right == RSMSS_V_NONE) {
-                // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:345)
+                // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:440)
                 return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
             }
             if (n_right == RSMSS_V_BOTTOM) {
-                // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:346)
+                // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:441)
                 float B_v = tH == RSMSS_TH_DUAL_POSITIVE ? py : (dH + py) - 1.0;
                 return RsmssResult(clamp(max(1.0 - px, B_v), 0.0, 1.0), 14u);
             }
             if (n_right == RSMSS_V_TOP) {
-                // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:347)
+                // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:442)
                 float A_v = tH == RSMSS_TH_DUAL_POSITIVE ? 1.0 - py : dH - py;
                 return RsmssResult(clamp(max(1.0 - px, A_v), 0.0, 1.0), 14u);
             }
             uint d_cb_v = rsmss_fetch_d_cb_v(site);
             if (d_cb_v == RSMSS_V_NONE) {
-                // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:348)
+                // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:443)
                 return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
             }
             if (d_cb_v == RSMSS_V_TOP) {
-                // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:349)
+                // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:444)
                 return RsmssResult(clamp(max(1.0 - px, 1.0 - py), 0.0, 1.0), 14u);
             }
             if (d_cb_v == RSMSS_V_BOTTOM) {
-                // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:350)
+                // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:445)
                 return RsmssResult(clamp(max(1.0 - px, py), 0.0, 1.0), 14u);
             }
-            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:342)
+            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:437)
             return RsmssResult(0.0, 14u);
         }
         uint n_left = rsmss_fetch_n_left(site);
         if (n_left == RSMSS_V_NONE) {
-            // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:345)
+            // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:440)
             return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
         }
         if (n_left == RSMSS_V_BOTTOM) {
-            // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:346)
+            // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:441)
             float B_v = tH == RSMSS_TH_DUAL_POSITIVE ? py : (dH + py) - 1.0;
             return RsmssResult(clamp(max(1.0 - (1.0 - px), B_v), 0.0, 1.0), 14u);
         }
         if (n_left == RSMSS_V_TOP) {
-            // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:347)
+            // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:442)
             float A_v = tH == RSMSS_TH_DUAL_POSITIVE ? 1.0 - py : dH - py;
             return RsmssResult(clamp(max(1.0 - (1.0 - px), A_v), 0.0, 1.0), 14u);
         }
         uint d_cb_v = rsmss_fetch_d_cb_v(site);
         if (d_cb_v == RSMSS_V_NONE) {
-            // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:348)
+            // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:443)
             return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
         }
         if (d_cb_v == RSMSS_V_TOP) {
-            // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:349)
+            // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:444)
             return RsmssResult(clamp(max(1.0 - (1.0 - px), 1.0 - py), 0.0, 1.0), 14u);
         }
         if (d_cb_v == RSMSS_V_BOTTOM) {
-            // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:350)
+            // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:445)
             return RsmssResult(clamp(max(1.0 - (1.0 - px), py), 0.0, 1.0), 14u);
         }
-        // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:342)
+        // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:437)
         return RsmssResult(0.0, 14u);
     }
     if ((b == RSMSS_B_EXITING) && (V == RSMSS_V_BOTH) && (H == RSMSS_H_NONE)) {
         uint d_cb_v = rsmss_fetch_d_cb_v(site);
         if (d_cb_v == RSMSS_V_NONE) {
-            // case 15, line 1: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:361)
+            // case 15, line 1: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:469)
             return RsmssResult(clamp(dH, 0.0, 1.0), 15u);
         }
         if (d_cb_v == RSMSS_V_TOP) {
-            // case 15, line 2: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:362)
+            // case 15, line 2: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:470)
             float A_v = tH == RSMSS_TH_DUAL_POSITIVE ? 1.0 - py : dH - py;
             return RsmssResult(clamp(A_v, 0.0, 1.0), 15u);
         }
         if (d_cb_v == RSMSS_V_BOTTOM) {
-            // case 15, line 3: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:363)
+            // case 15, line 3: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:471)
             float B_v = tH == RSMSS_TH_DUAL_POSITIVE ? py : (dH + py) - 1.0;
             return RsmssResult(clamp(B_v, 0.0, 1.0), 15u);
         }
-        // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:358)
+        // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:466)
         return RsmssResult(0.0, 15u);
     }
     if ((b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && !domV) {
-        // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:372)
+        // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:484)
         float u = H == RSMSS_H_LEFT ? px : 1.0 - px;
         float F23 = H == RSMSS_H_LEFT ? (1.0 + px) - dV : (2.0 - px) - dV;
         return RsmssResult(clamp(tV == RSMSS_TH_DUAL_POSITIVE ? u : F23, 0.0, 1.0), 16u);
     }
     if ((b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domV && !domH) {
-        // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:378)
+        // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:490)
         float F20 = V == RSMSS_V_BOTTOM ? 1.0 - py : py;
         float F22 = V == RSMSS_V_BOTTOM ? (2.0 - py) - dH : (1.0 + py) - dH;
         return RsmssResult(clamp(tH == RSMSS_TH_DUAL_POSITIVE ? F20 : F22, 0.0, 1.0), 17u);
     }
     if ((b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && !domH && !domV) {
-        // case 18: lone corner (section 3, case 18; rsmss.ron:384)
+        // case 18: lone corner (section 3, case 18; rsmss.ron:496)
         float F22 = V == RSMSS_V_BOTTOM ? (2.0 - py) - dH : (1.0 + py) - dH;
         return RsmssResult(clamp(F22, 0.0, 1.0), 18u);
     }
     if ((b == RSMSS_B_ENTERING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && domV) {
-        // case 19: two edges meet: the darker one (section 3, case 19; rsmss.ron:390)
+        // case 19: two edges meet: the darker one (section 3, case 19; rsmss.ron:503)
         float u = H == RSMSS_H_LEFT ? px : 1.0 - px;
         float F23 = H == RSMSS_H_LEFT ? (1.0 + px) - dV : (2.0 - px) - dV;
         float F20 = V == RSMSS_V_BOTTOM ? 1.0 - py : py;
@@ -511,57 +511,57 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
     }
     if ((b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_DUAL_POSITIVE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE)) {
         if (V == RSMSS_V_BOTTOM) {
-            // case 20, line 1: dual positive horizontal edge (section 3, case 20; rsmss.ron:396)
+            // case 20, line 1: dual positive horizontal edge (section 3, case 20; rsmss.ron:510)
             return RsmssResult(clamp(1.0 - py, 0.0, 1.0), 20u);
         }
         if (V == RSMSS_V_TOP) {
-            // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:396)
+            // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:510)
             return RsmssResult(clamp(py, 0.0, 1.0), 20u);
         }
-        // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:394)
+        // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:508)
         return RsmssResult(1.0, 20u);
     }
     if ((b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) && (tV == RSMSS_TH_DUAL_POSITIVE)) {
         if (H == RSMSS_H_LEFT) {
-            // case 21, line 1: dual positive vertical edge (section 3, case 21; rsmss.ron:402)
+            // case 21, line 1: dual positive vertical edge (section 3, case 21; rsmss.ron:517)
             return RsmssResult(clamp(px, 0.0, 1.0), 21u);
         }
         if (H == RSMSS_H_RIGHT) {
-            // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:402)
+            // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:517)
             return RsmssResult(clamp(1.0 - px, 0.0, 1.0), 21u);
         }
-        // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:400)
+        // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:515)
         return RsmssResult(1.0, 21u);
     }
     if ((b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (V != RSMSS_V_NONE)) {
-        // case 22: horizontal edge (section 3, case 22; rsmss.ron:408)
+        // case 22: horizontal edge (section 3, case 22; rsmss.ron:524)
         float F22 = V == RSMSS_V_BOTTOM ? (2.0 - py) - dH : (1.0 + py) - dH;
         return RsmssResult(clamp(F22, 0.0, 1.0), 22u);
     }
     if ((b == RSMSS_B_ENTERING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H != RSMSS_H_NONE) && (V == RSMSS_V_NONE)) {
-        // case 23: vertical edge (section 3, case 23; rsmss.ron:412)
+        // case 23: vertical edge (section 3, case 23; rsmss.ron:528)
         float F23 = H == RSMSS_H_LEFT ? (1.0 + px) - dV : (2.0 - px) - dV;
         return RsmssResult(clamp(F23, 0.0, 1.0), 23u);
     }
     if ((b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && !domV) {
-        // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:418)
+        // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:534)
         float F29 = H == RSMSS_H_LEFT ? 1.0 - px : px;
         float F31 = H == RSMSS_H_LEFT ? dV - px : (px + dV) - 1.0;
         return RsmssResult(clamp(tV == RSMSS_TH_DUAL_POSITIVE ? F29 : F31, 0.0, 1.0), 24u);
     }
     if ((b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domV && !domH) {
-        // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:427)
+        // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:543)
         float F28 = V == RSMSS_V_BOTTOM ? py : 1.0 - py;
         float F30 = V == RSMSS_V_BOTTOM ? (py + dH) - 1.0 : dH - py;
         return RsmssResult(clamp(tH == RSMSS_TH_DUAL_POSITIVE ? F28 : F30, 0.0, 1.0), 25u);
     }
     if ((b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && !domH && !domV) {
-        // case 26: lone corner (section 3, case 26; rsmss.ron:436)
+        // case 26: lone corner (section 3, case 26; rsmss.ron:552)
         float F30 = V == RSMSS_V_BOTTOM ? (py + dH) - 1.0 : dH - py;
         return RsmssResult(clamp(F30, 0.0, 1.0), 26u);
     }
     if ((b == RSMSS_B_EXITING) && ((H == RSMSS_H_RIGHT) || (H == RSMSS_H_LEFT)) && ((V == RSMSS_V_TOP) || (V == RSMSS_V_BOTTOM)) && domH && domV) {
-        // case 27: two edges meet: the lighter one (section 3, case 27; rsmss.ron:442)
+        // case 27: two edges meet: the lighter one (section 3, case 27; rsmss.ron:559)
         float F29 = H == RSMSS_H_LEFT ? 1.0 - px : px;
         float F31 = H == RSMSS_H_LEFT ? dV - px : (px + dV) - 1.0;
         float F28 = V == RSMSS_V_BOTTOM ? py : 1.0 - py;
@@ -570,35 +570,35 @@ RsmssResult rsmss_key_case(uint key, float dH, float dV, float px, float py, Rsm
     }
     if ((b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_DUAL_POSITIVE) && (tV == RSMSS_TH_POSITIVE_NEGATIVE)) {
         if (V == RSMSS_V_BOTTOM) {
-            // case 28, line 1: dual positive horizontal edge (section 3, case 28; rsmss.ron:448)
+            // case 28, line 1: dual positive horizontal edge (section 3, case 28; rsmss.ron:566)
             return RsmssResult(clamp(py, 0.0, 1.0), 28u);
         }
         if (V == RSMSS_V_TOP) {
-            // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:448)
+            // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:566)
             return RsmssResult(clamp(1.0 - py, 0.0, 1.0), 28u);
         }
-        // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:446)
+        // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:564)
         return RsmssResult(0.0, 28u);
     }
     if ((b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (tH == RSMSS_TH_POSITIVE_NEGATIVE) && (tV == RSMSS_TH_DUAL_POSITIVE)) {
         if (H == RSMSS_H_LEFT) {
-            // case 29, line 1: dual positive vertical edge (section 3, case 29; rsmss.ron:455)
+            // case 29, line 1: dual positive vertical edge (section 3, case 29; rsmss.ron:574)
             return RsmssResult(clamp(1.0 - px, 0.0, 1.0), 29u);
         }
         if (H == RSMSS_H_RIGHT) {
-            // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:455)
+            // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:574)
             return RsmssResult(clamp(px, 0.0, 1.0), 29u);
         }
-        // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:453)
+        // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:572)
         return RsmssResult(0.0, 29u);
     }
     if ((b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H == RSMSS_H_NONE) && (V != RSMSS_V_NONE)) {
-        // case 30: horizontal edge (section 3, case 30; rsmss.ron:461)
+        // case 30: horizontal edge (section 3, case 30; rsmss.ron:581)
         float F30 = V == RSMSS_V_BOTTOM ? (py + dH) - 1.0 : dH - py;
         return RsmssResult(clamp(F30, 0.0, 1.0), 30u);
     }
     if ((b == RSMSS_B_EXITING) && (H != RSMSS_H_BOTH) && (V != RSMSS_V_BOTH) && (H != RSMSS_H_NONE) && (V == RSMSS_V_NONE)) {
-        // case 31: vertical edge (section 3, case 31; rsmss.ron:465)
+        // case 31: vertical edge (section 3, case 31; rsmss.ron:585)
         float F31 = H == RSMSS_H_LEFT ? dV - px : (px + dV) - 1.0;
         return RsmssResult(clamp(F31, 0.0, 1.0), 31u);
     }

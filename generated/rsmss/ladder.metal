@@ -2,7 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  meaning 1 764331cbc2cabb33, 31 cases
-// Inputs: fnv1a 5349e8c6d49087ed, of texts, weights and options
+// Inputs: fnv1a 3e2c6bf15ce30b15, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
 

@@ -2,7 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  meaning 1 764331cbc2cabb33, 31 cases
-// Inputs: fnv1a c67871818a0696d0, of texts, weights and options
+// Inputs: fnv1a 5068ea77f2a6392a, of texts, weights and options
 // Plan:   ordered
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Cost:   expected tests 11.352, as written 20.427; optimal

@@ -2,7 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  meaning 1 764331cbc2cabb33, 31 cases
-// Inputs: fnv1a aa0c35a7ca3d1dfd, of texts, weights and options
+// Inputs: fnv1a d304b308854fdfbe, of texts, weights and options
 // Plan:   switch
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each

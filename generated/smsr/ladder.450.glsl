@@ -2,7 +2,7 @@
 // Shadow map silhouette revectorization: visibility of a lit fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  meaning 1 eabf14c2ab26a863, 12 cases
-// Inputs: fnv1a 3561d73c29549ef5, of texts, weights and options
+// Inputs: fnv1a 8579c9f61d7b1f2b, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 576 states, 596 paths; the same operations on each
 
@@ -62,71 +62,71 @@ SmsrResult smsr_key_case(uint key, float dH, float dV, float px, float py) {
         return SmsrResult(1.0, 1u);
     }
     if ((tH == SMSR_TH_DUAL_POSITIVE) || (tV == SMSR_TH_DUAL_POSITIVE)) {
-        // case 2: shadow at both ends: close the edge (section 2, case 2; smsr.ron:82)
+        // case 2: shadow at both ends: close the edge (section 2, case 2; smsr.ron:83)
         return SmsrResult(0.0, 2u);
     }
     if ((H == SMSR_H_BOTH) || (V == SMSR_V_BOTH)) {
-        // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:86)
+        // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:87)
         return SmsrResult(0.0, 3u);
     }
     if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
-        // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:90)
+        // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:91)
         return SmsrResult(H == SMSR_H_LEFT ? px < dV ? 0.0 : 1.0 : (1.0 - px) < dV ? 0.0 : 1.0, 4u);
     }
     if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domV && !domH && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
-        // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:95)
+        // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:96)
         return SmsrResult(V == SMSR_V_BOTTOM ? (1.0 - py) < dH ? 0.0 : 1.0 : py < dH ? 0.0 : 1.0, 5u);
     }
     if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_BOTTOM) && !domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if ((1.0 - dH) < py) {
-            // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:100)
+            // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:101)
             return SmsrResult(0.0, 6u);
         }
-        // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:100)
+        // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:101)
         return SmsrResult(1.0, 6u);
     }
     if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && (V == SMSR_V_TOP) && !domH && !domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if ((1.0 - dH) < (1.0 - py)) {
-            // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:106)
+            // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:108)
             return SmsrResult(0.0, 7u);
         }
-        // case 7, line 2: lone corner at the top (section 2, case 7; smsr.ron:106)
+        // case 7, line 2: lone corner at the top (section 2, case 7; smsr.ron:108)
         return SmsrResult(1.0, 7u);
     }
     if (((H == SMSR_H_RIGHT) || (H == SMSR_H_LEFT)) && ((V == SMSR_V_TOP) || (V == SMSR_V_BOTTOM)) && domH && domV && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
-        // case 8: two edges meet: the darker one (section 2, case 8; smsr.ron:112)
+        // case 8: two edges meet: the darker one (section 2, case 8; smsr.ron:115)
         return SmsrResult(min(V == SMSR_V_BOTTOM ? (1.0 - py) < dH ? 0.0 : 1.0 : py < dH ? 0.0 : 1.0, H == SMSR_H_LEFT ? px < dV ? 0.0 : 1.0 : (1.0 - px) < dV ? 0.0 : 1.0), 8u);
     }
     if ((H == SMSR_H_NONE) && (V == SMSR_V_BOTTOM) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if ((1.0 - py) < dH) {
-            // case 9, line 1: shadow below (section 2, case 9; smsr.ron:117)
+            // case 9, line 1: shadow below (section 2, case 9; smsr.ron:120)
             return SmsrResult(0.0, 9u);
         }
-        // case 9, line 2: shadow below (section 2, case 9; smsr.ron:117)
+        // case 9, line 2: shadow below (section 2, case 9; smsr.ron:120)
         return SmsrResult(1.0, 9u);
     }
     if ((H == SMSR_H_NONE) && (V == SMSR_V_TOP) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if (py < dH) {
-            // case 10, line 1: shadow above (section 2, case 10; smsr.ron:121)
+            // case 10, line 1: shadow above (section 2, case 10; smsr.ron:124)
             return SmsrResult(0.0, 10u);
         }
-        // case 10, line 2: shadow above (section 2, case 10; smsr.ron:121)
+        // case 10, line 2: shadow above (section 2, case 10; smsr.ron:124)
         return SmsrResult(1.0, 10u);
     }
     if ((H == SMSR_H_LEFT) && (V == SMSR_V_NONE) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if (px < dV) {
-            // case 11, line 1: shadow on the left (section 2, case 11; smsr.ron:125)
+            // case 11, line 1: shadow on the left (section 2, case 11; smsr.ron:128)
             return SmsrResult(0.0, 11u);
         }
-        // case 11, line 2: shadow on the left (section 2, case 11; smsr.ron:125)
+        // case 11, line 2: shadow on the left (section 2, case 11; smsr.ron:128)
         return SmsrResult(1.0, 11u);
     }
     if ((H == SMSR_H_RIGHT) && (V == SMSR_V_NONE) && (tH == SMSR_TH_POSITIVE_NEGATIVE) && (tV == SMSR_TH_POSITIVE_NEGATIVE)) {
         if ((1.0 - px) < dV) {
-            // case 12, line 1: shadow on the right (section 2, case 12; smsr.ron:129)
+            // case 12, line 1: shadow on the right (section 2, case 12; smsr.ron:132)
             return SmsrResult(0.0, 12u);
         }
-        // case 12, line 2: shadow on the right (section 2, case 12; smsr.ron:129)
+        // case 12, line 2: shadow on the right (section 2, case 12; smsr.ron:132)
         return SmsrResult(1.0, 12u);
     }
     // default: no case matches

@@ -2,7 +2,7 @@
 // Shadow map silhouette revectorization: visibility of a lit fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  meaning 1 eabf14c2ab26a863, 12 cases
-// Inputs: fnv1a 3561d73c29549ef5, of texts, weights and options
+// Inputs: fnv1a 8579c9f61d7b1f2b, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 576 states, 596 paths; the same operations on each
 

@@ -2,7 +2,7 @@
 // Shadow map silhouette revectorization: visibility of a lit fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  meaning 1 eabf14c2ab26a863, 12 cases
-// Inputs: fnv1a 587cba5663c6c455, of texts, weights and options
+// Inputs: fnv1a dca11d82a1aad3fa, of texts, weights and options
 // Plan:   ordered
 // Weight: profile smsr.ron, 13113 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Cost:   expected tests 3.625, as written 5.375; optimal

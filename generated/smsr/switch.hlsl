@@ -2,7 +2,7 @@
 // Shadow map silhouette revectorization: visibility of a lit fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  meaning 1 eabf14c2ab26a863, 12 cases
-// Inputs: fnv1a 09b16ea040e18b1b, of texts, weights and options
+// Inputs: fnv1a ae940fe14a350093, of texts, weights and options
 // Plan:   switch
 // Weight: profile smsr.ron, 13113 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Proof:  equal to the table on 576 states, 596 paths; the same operations on each

@@ -238,7 +238,7 @@ float spherical_gaussian_alpha(float mu, float lambda, float a, float b) {
 // Table:  meaning 1 a4ce657cd5f6c287, 1 cases
 // Inputs: fnv1a 8a4b3d762f1eb402, of texts, weights and options
 // Plan:   ladder
-// Proof:  equal to the table on 1 states, 1 paths; the same operations on each
+// Proof:  equal to the table on 1 states, 2 paths; the same operations on each
 
 // Include it after `#version 450`.
 
@@ -271,48 +271,36 @@ SphericalGaussianE1Result spherical_gaussian_e1_key_case(uint key, float mu, flo
     } else {
         float y = 0.5 * t3t;
         float e = exp(y * (-2.0));
-        float t5t = -t3t;
-        float g;
-        if (t3t < 1.0) {
-            g = 1.0 + (t3t * ((-0.5) + (t3t * (0.16666667 + (t3t * ((-0.041666668) + (t3t * (0.008333334 + (t3t * ((-0.0013888889) + (t3t * (0.0001984127 + (t3t * ((-2.4801588e-5) + (t3t * (2.7557319e-6 + (t3t * (-2.755732e-7))))))))))))))))));
-        } else {
-            g = (1.0 - exp(t5t)) / t3t;
-        }
-        float t6t;
-        if (t3t < 2.3) {
-            float t7t = t3t * (0.15 + (t3t * ((-0.033333335) + (t3t * (0.005952381 + (t3t * ((-0.00089285715) + (t3t * (0.00011574074 + (t3t * ((-1.3227514e-5) + (t3t * (1.3528138e-6 + (t3t * ((-1.2526054e-7) + (t3t * (1.0598969e-8 + (t3t * ((-8.258937e-10) + (t3t * (5.964788e-11 + (t3t * (-4.0147607e-12)))))))))))))))))))))));
-            t6t = 1.0 + (t3t * ((-0.5) + t7t));
-        } else {
-            float t8t = exp(t5t);
-            t6t = (6.0 * ((t3t * (1.0 + t8t)) - (2.0 * (1.0 - t8t)))) / ((t3t * t3t) * t3t);
-        }
-        float s = y * t6t;
-        float t9t = (-1.0) - (((e - g) - (s * (-1.0))) / ((y * e) - s));
+        float t5t = exp(-t3t);
+        float t6t = 1.0 - t5t;
+        float t7t = t6t / t3t;
+        float t8t = y * ((6.0 * ((t3t * (1.0 + t5t)) - (2.0 * t6t))) / ((t3t * t3t) * t3t));
+        float t9t = (-1.0) - (((e - t7t) - (t8t * (-1.0))) / ((y * e) - t8t));
         float t10t = exp(y * (t9t - 1.0));
-        float t11t = t9t - (((t10t - g) - (s * t9t)) / ((y * t10t) - s));
+        float t11t = t9t - (((t10t - t7t) - (t8t * t9t)) / ((y * t10t) - t8t));
         float t12t = exp(y * (t11t - 1.0));
-        float t13t = t11t - (((t12t - g) - (s * t11t)) / ((y * t12t) - s));
+        float t13t = t11t - (((t12t - t7t) - (t8t * t11t)) / ((y * t12t) - t8t));
         float t14t = exp(y * (t13t - 1.0));
-        float t15t = t13t - (((t14t - g) - (s * t13t)) / ((y * t14t) - s));
+        float t15t = t13t - (((t14t - t7t) - (t8t * t13t)) / ((y * t14t) - t8t));
         float t16t = exp(y * (t15t - 1.0));
-        float t17t = t15t - (((t16t - g) - (s * t15t)) / ((y * t16t) - s));
+        float t17t = t15t - (((t16t - t7t) - (t8t * t15t)) / ((y * t16t) - t8t));
         float t18t = exp(y * (t17t - 1.0));
-        float left = t17t - (((t18t - g) - (s * t17t)) / ((y * t18t) - s));
-        float t19t = 0.5 * s;
-        float t20t = 1.0 + (log(g + s) / y);
-        float t21t = exp(y * (t20t - 1.0));
-        float t22t = t20t - (((t21t - g) - (s * t20t)) / ((y * t21t) - s));
-        float t23t = exp(y * (t22t - 1.0));
-        float t24t = t22t - (((t23t - g) - (s * t22t)) / ((y * t23t) - s));
-        float t25t = exp(y * (t24t - 1.0));
-        float t26t = t24t - (((t25t - g) - (s * t24t)) / ((y * t25t) - s));
-        float t27t = exp(y * (t26t - 1.0));
-        float t28t = t26t - (((t27t - g) - (s * t26t)) / ((y * t27t) - s));
-        float t29t = exp(y * (t28t - 1.0));
-        float t30t = t28t - (((t29t - g) - (s * t28t)) / ((y * t29t) - s));
-        float t31t = exp(y * (t30t - 1.0));
-        float right = t30t - (((t31t - g) - (s * t30t)) / ((y * t31t) - s));
-        t4t = ((2.0 * (0.5 * t2t)) * (mu * exp(lambda * (b - 1.0)))) * ((((exp(y * (left - 1.0)) / y) - (g * left)) - (t19t * (left * left))) - (((exp(y * (right - 1.0)) / y) - (g * right)) - (t19t * (right * right))));
+        float t19t = t17t - (((t18t - t7t) - (t8t * t17t)) / ((y * t18t) - t8t));
+        float t20t = 0.5 * t8t;
+        float t21t = 1.0 + (log(t7t + t8t) / y);
+        float t22t = exp(y * (t21t - 1.0));
+        float t23t = t21t - (((t22t - t7t) - (t8t * t21t)) / ((y * t22t) - t8t));
+        float t24t = exp(y * (t23t - 1.0));
+        float t25t = t23t - (((t24t - t7t) - (t8t * t23t)) / ((y * t24t) - t8t));
+        float t26t = exp(y * (t25t - 1.0));
+        float t27t = t25t - (((t26t - t7t) - (t8t * t25t)) / ((y * t26t) - t8t));
+        float t28t = exp(y * (t27t - 1.0));
+        float t29t = t27t - (((t28t - t7t) - (t8t * t27t)) / ((y * t28t) - t8t));
+        float t30t = exp(y * (t29t - 1.0));
+        float t31t = t29t - (((t30t - t7t) - (t8t * t29t)) / ((y * t30t) - t8t));
+        float t32t = exp(y * (t31t - 1.0));
+        float t33t = t31t - (((t32t - t7t) - (t8t * t31t)) / ((y * t32t) - t8t));
+        t4t = ((2.0 * (0.5 * t2t)) * (mu * exp(lambda * (b - 1.0)))) * ((((exp(y * (t19t - 1.0)) / y) - (t7t * t19t)) - (t20t * (t19t * t19t))) - (((exp(y * (t33t - 1.0)) / y) - (t7t * t33t)) - (t20t * (t33t * t33t))));
     }
     return SphericalGaussianE1Result(t4t, 0u);
 }
@@ -339,7 +327,7 @@ float spherical_gaussian_e1(float mu, float lambda, float a, float b) {
 // Table:  meaning 1 7e9bc2b23e68dc84, 1 cases
 // Inputs: fnv1a 8a4b3d762f1eb402, of texts, weights and options
 // Plan:   ladder
-// Proof:  equal to the table on 1 states, 1 paths; the same operations on each
+// Proof:  equal to the table on 1 states, 2 paths; the same operations on each
 
 // Include it after `#version 450`.
 
@@ -370,24 +358,12 @@ SphericalGaussianE2Result spherical_gaussian_e2_key_case(uint key, float mu, flo
         float u = y * y;
         t4t = (c * u) * sqrt((0.5 * t2t) * (0.044444446 + (u * (0.0076190475 + (u * (0.0005643739 + (u * (2.443177e-5 + (u * (7.047626e-7 + (u * (1.4617299e-8 + (u * (2.2929e-10 + (u * 2.8211e-12)))))))))))))));
     } else {
+        float t5t = exp(-t3t);
+        float t6t = 1.0 - t5t;
+        float t7t = t6t / t3t;
         float y = 0.5 * t3t;
-        float t5t = -t3t;
-        float g;
-        if (t3t < 1.0) {
-            g = 1.0 + (t3t * ((-0.5) + (t3t * (0.16666667 + (t3t * ((-0.041666668) + (t3t * (0.008333334 + (t3t * ((-0.0013888889) + (t3t * (0.0001984127 + (t3t * ((-2.4801588e-5) + (t3t * (2.7557319e-6 + (t3t * (-2.755732e-7))))))))))))))))));
-        } else {
-            g = (1.0 - exp(t5t)) / t3t;
-        }
-        float t6t;
-        if (t3t < 2.3) {
-            float t7t = t3t * (0.15 + (t3t * ((-0.033333335) + (t3t * (0.005952381 + (t3t * ((-0.00089285715) + (t3t * (0.00011574074 + (t3t * ((-1.3227514e-5) + (t3t * (1.3528138e-6 + (t3t * ((-1.2526054e-7) + (t3t * (1.0598969e-8 + (t3t * ((-8.258937e-10) + (t3t * (5.964788e-11 + (t3t * (-4.0147607e-12)))))))))))))))))))))));
-            t6t = 1.0 + (t3t * ((-0.5) + t7t));
-        } else {
-            float t8t = exp(t5t);
-            t6t = (6.0 * ((t3t * (1.0 + t8t)) - (2.0 * (1.0 - t8t)))) / ((t3t * t3t) * t3t);
-        }
-        float s = y * t6t;
-        t4t = (mu * exp(lambda * (b - 1.0))) * sqrt((0.5 * t2t) * max((((1.0 - exp((-2.0) * t3t)) / t3t) - (2.0 * (g * g))) - ((s * s) * 0.6666667), 0.0));
+        float t8t = y * ((6.0 * ((t3t * (1.0 + t5t)) - (2.0 * t6t))) / ((t3t * t3t) * t3t));
+        t4t = (mu * exp(lambda * (b - 1.0))) * sqrt((0.5 * t2t) * max((((1.0 - exp((-2.0) * t3t)) / t3t) - (2.0 * (t7t * t7t))) - ((t8t * t8t) * 0.6666667), 0.0));
     }
     return SphericalGaussianE2Result(t4t, 0u);
 }

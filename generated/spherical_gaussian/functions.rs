@@ -386,7 +386,7 @@ impl SphericalGaussianAlphaInputs {
 // Table:  meaning 1 a4ce657cd5f6c287, 1 cases
 // Inputs: fnv1a 8a4b3d762f1eb402, of texts, weights and options
 // Plan:   ladder
-// Proof:  equal to the table on 1 states, 1 paths; the same operations on each
+// Proof:  equal to the table on 1 states, 2 paths; the same operations on each
 
 #[allow(non_camel_case_types, non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub)]
 #[allow(unused_parens, unused_variables)]
@@ -423,48 +423,36 @@ pub fn spherical_gaussian_e1_key_case(key: u32, mu: f32, lambda: f32, a: f32, b:
     } else {
         let y: f32 = 0.5 * t3t;
         let e: f32 = f64::exp(f64::from((y * (-2.0)) as f32)) as f32;
-        let t5t: f32 = -t3t;
-        let g: f32;
-        if t3t < 1.0 {
-            g = 1.0 + (t3t * ((-0.5) + (t3t * (0.16666667 + (t3t * ((-0.041666668) + (t3t * (0.008333334 + (t3t * ((-0.0013888889) + (t3t * (0.0001984127 + (t3t * ((-2.4801588e-5) + (t3t * (2.7557319e-6 + (t3t * (-2.755732e-7))))))))))))))))));
-        } else {
-            g = (1.0 - (f64::exp(f64::from(t5t as f32)) as f32)) / t3t;
-        }
-        let t6t: f32;
-        if t3t < 2.3 {
-            let t7t: f32 = t3t * (0.15 + (t3t * ((-0.033333335) + (t3t * (0.005952381 + (t3t * ((-0.00089285715) + (t3t * (0.00011574074 + (t3t * ((-1.3227514e-5) + (t3t * (1.3528138e-6 + (t3t * ((-1.2526054e-7) + (t3t * (1.0598969e-8 + (t3t * ((-8.258937e-10) + (t3t * (5.964788e-11 + (t3t * (-4.0147607e-12)))))))))))))))))))))));
-            t6t = 1.0 + (t3t * ((-0.5) + t7t));
-        } else {
-            let t8t: f32 = f64::exp(f64::from(t5t as f32)) as f32;
-            t6t = (6.0 * ((t3t * (1.0 + t8t)) - (2.0 * (1.0 - t8t)))) / ((t3t * t3t) * t3t);
-        }
-        let s: f32 = y * t6t;
-        let t9t: f32 = (-1.0) - (((e - g) - (s * (-1.0))) / ((y * e) - s));
+        let t5t: f32 = f64::exp(f64::from((-t3t) as f32)) as f32;
+        let t6t: f32 = 1.0 - t5t;
+        let t7t: f32 = t6t / t3t;
+        let t8t: f32 = y * ((6.0 * ((t3t * (1.0 + t5t)) - (2.0 * t6t))) / ((t3t * t3t) * t3t));
+        let t9t: f32 = (-1.0) - (((e - t7t) - (t8t * (-1.0))) / ((y * e) - t8t));
         let t10t: f32 = f64::exp(f64::from((y * (t9t - 1.0)) as f32)) as f32;
-        let t11t: f32 = t9t - (((t10t - g) - (s * t9t)) / ((y * t10t) - s));
+        let t11t: f32 = t9t - (((t10t - t7t) - (t8t * t9t)) / ((y * t10t) - t8t));
         let t12t: f32 = f64::exp(f64::from((y * (t11t - 1.0)) as f32)) as f32;
-        let t13t: f32 = t11t - (((t12t - g) - (s * t11t)) / ((y * t12t) - s));
+        let t13t: f32 = t11t - (((t12t - t7t) - (t8t * t11t)) / ((y * t12t) - t8t));
         let t14t: f32 = f64::exp(f64::from((y * (t13t - 1.0)) as f32)) as f32;
-        let t15t: f32 = t13t - (((t14t - g) - (s * t13t)) / ((y * t14t) - s));
+        let t15t: f32 = t13t - (((t14t - t7t) - (t8t * t13t)) / ((y * t14t) - t8t));
         let t16t: f32 = f64::exp(f64::from((y * (t15t - 1.0)) as f32)) as f32;
-        let t17t: f32 = t15t - (((t16t - g) - (s * t15t)) / ((y * t16t) - s));
+        let t17t: f32 = t15t - (((t16t - t7t) - (t8t * t15t)) / ((y * t16t) - t8t));
         let t18t: f32 = f64::exp(f64::from((y * (t17t - 1.0)) as f32)) as f32;
-        let left: f32 = t17t - (((t18t - g) - (s * t17t)) / ((y * t18t) - s));
-        let t19t: f32 = 0.5 * s;
-        let t20t: f32 = 1.0 + ((f64::ln(f64::from((g + s) as f32)) as f32) / y);
-        let t21t: f32 = f64::exp(f64::from((y * (t20t - 1.0)) as f32)) as f32;
-        let t22t: f32 = t20t - (((t21t - g) - (s * t20t)) / ((y * t21t) - s));
-        let t23t: f32 = f64::exp(f64::from((y * (t22t - 1.0)) as f32)) as f32;
-        let t24t: f32 = t22t - (((t23t - g) - (s * t22t)) / ((y * t23t) - s));
-        let t25t: f32 = f64::exp(f64::from((y * (t24t - 1.0)) as f32)) as f32;
-        let t26t: f32 = t24t - (((t25t - g) - (s * t24t)) / ((y * t25t) - s));
-        let t27t: f32 = f64::exp(f64::from((y * (t26t - 1.0)) as f32)) as f32;
-        let t28t: f32 = t26t - (((t27t - g) - (s * t26t)) / ((y * t27t) - s));
-        let t29t: f32 = f64::exp(f64::from((y * (t28t - 1.0)) as f32)) as f32;
-        let t30t: f32 = t28t - (((t29t - g) - (s * t28t)) / ((y * t29t) - s));
-        let t31t: f32 = f64::exp(f64::from((y * (t30t - 1.0)) as f32)) as f32;
-        let right: f32 = t30t - (((t31t - g) - (s * t30t)) / ((y * t31t) - s));
-        t4t = ((2.0 * (0.5 * t2t)) * (mu * (f64::exp(f64::from((lambda * (b - 1.0)) as f32)) as f32))) * (((((f64::exp(f64::from((y * (left - 1.0)) as f32)) as f32) / y) - (g * left)) - (t19t * (left * left))) - ((((f64::exp(f64::from((y * (right - 1.0)) as f32)) as f32) / y) - (g * right)) - (t19t * (right * right))));
+        let t19t: f32 = t17t - (((t18t - t7t) - (t8t * t17t)) / ((y * t18t) - t8t));
+        let t20t: f32 = 0.5 * t8t;
+        let t21t: f32 = 1.0 + ((f64::ln(f64::from((t7t + t8t) as f32)) as f32) / y);
+        let t22t: f32 = f64::exp(f64::from((y * (t21t - 1.0)) as f32)) as f32;
+        let t23t: f32 = t21t - (((t22t - t7t) - (t8t * t21t)) / ((y * t22t) - t8t));
+        let t24t: f32 = f64::exp(f64::from((y * (t23t - 1.0)) as f32)) as f32;
+        let t25t: f32 = t23t - (((t24t - t7t) - (t8t * t23t)) / ((y * t24t) - t8t));
+        let t26t: f32 = f64::exp(f64::from((y * (t25t - 1.0)) as f32)) as f32;
+        let t27t: f32 = t25t - (((t26t - t7t) - (t8t * t25t)) / ((y * t26t) - t8t));
+        let t28t: f32 = f64::exp(f64::from((y * (t27t - 1.0)) as f32)) as f32;
+        let t29t: f32 = t27t - (((t28t - t7t) - (t8t * t27t)) / ((y * t28t) - t8t));
+        let t30t: f32 = f64::exp(f64::from((y * (t29t - 1.0)) as f32)) as f32;
+        let t31t: f32 = t29t - (((t30t - t7t) - (t8t * t29t)) / ((y * t30t) - t8t));
+        let t32t: f32 = f64::exp(f64::from((y * (t31t - 1.0)) as f32)) as f32;
+        let t33t: f32 = t31t - (((t32t - t7t) - (t8t * t31t)) / ((y * t32t) - t8t));
+        t4t = ((2.0 * (0.5 * t2t)) * (mu * (f64::exp(f64::from((lambda * (b - 1.0)) as f32)) as f32))) * (((((f64::exp(f64::from((y * (t19t - 1.0)) as f32)) as f32) / y) - (t7t * t19t)) - (t20t * (t19t * t19t))) - ((((f64::exp(f64::from((y * (t33t - 1.0)) as f32)) as f32) / y) - (t7t * t33t)) - (t20t * (t33t * t33t))));
     }
     return SphericalGaussianE1Result { value: t4t, case_id: 0 };
 }
@@ -524,7 +512,7 @@ impl SphericalGaussianE1Inputs {
 // Table:  meaning 1 7e9bc2b23e68dc84, 1 cases
 // Inputs: fnv1a 8a4b3d762f1eb402, of texts, weights and options
 // Plan:   ladder
-// Proof:  equal to the table on 1 states, 1 paths; the same operations on each
+// Proof:  equal to the table on 1 states, 2 paths; the same operations on each
 
 #[allow(non_camel_case_types, non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub)]
 #[allow(unused_parens, unused_variables)]
@@ -559,24 +547,12 @@ pub fn spherical_gaussian_e2_key_case(key: u32, mu: f32, lambda: f32, a: f32, b:
         let u: f32 = y * y;
         t4t = (c * u) * f32::sqrt((0.5 * t2t) * (0.044444446 + (u * (0.0076190475 + (u * (0.0005643739 + (u * (2.443177e-5 + (u * (7.047626e-7 + (u * (1.4617299e-8 + (u * (2.2929e-10 + (u * 2.8211e-12)))))))))))))));
     } else {
+        let t5t: f32 = f64::exp(f64::from((-t3t) as f32)) as f32;
+        let t6t: f32 = 1.0 - t5t;
+        let t7t: f32 = t6t / t3t;
         let y: f32 = 0.5 * t3t;
-        let t5t: f32 = -t3t;
-        let g: f32;
-        if t3t < 1.0 {
-            g = 1.0 + (t3t * ((-0.5) + (t3t * (0.16666667 + (t3t * ((-0.041666668) + (t3t * (0.008333334 + (t3t * ((-0.0013888889) + (t3t * (0.0001984127 + (t3t * ((-2.4801588e-5) + (t3t * (2.7557319e-6 + (t3t * (-2.755732e-7))))))))))))))))));
-        } else {
-            g = (1.0 - (f64::exp(f64::from(t5t as f32)) as f32)) / t3t;
-        }
-        let t6t: f32;
-        if t3t < 2.3 {
-            let t7t: f32 = t3t * (0.15 + (t3t * ((-0.033333335) + (t3t * (0.005952381 + (t3t * ((-0.00089285715) + (t3t * (0.00011574074 + (t3t * ((-1.3227514e-5) + (t3t * (1.3528138e-6 + (t3t * ((-1.2526054e-7) + (t3t * (1.0598969e-8 + (t3t * ((-8.258937e-10) + (t3t * (5.964788e-11 + (t3t * (-4.0147607e-12)))))))))))))))))))))));
-            t6t = 1.0 + (t3t * ((-0.5) + t7t));
-        } else {
-            let t8t: f32 = f64::exp(f64::from(t5t as f32)) as f32;
-            t6t = (6.0 * ((t3t * (1.0 + t8t)) - (2.0 * (1.0 - t8t)))) / ((t3t * t3t) * t3t);
-        }
-        let s: f32 = y * t6t;
-        t4t = (mu * (f64::exp(f64::from((lambda * (b - 1.0)) as f32)) as f32)) * f32::sqrt((0.5 * t2t) * f32::max((((1.0 - (f64::exp(f64::from(((-2.0) * t3t) as f32)) as f32)) / t3t) - (2.0 * (g * g))) - ((s * s) * 0.6666667), 0.0));
+        let t8t: f32 = y * ((6.0 * ((t3t * (1.0 + t5t)) - (2.0 * t6t))) / ((t3t * t3t) * t3t));
+        t4t = (mu * (f64::exp(f64::from((lambda * (b - 1.0)) as f32)) as f32)) * f32::sqrt((0.5 * t2t) * f32::max((((1.0 - (f64::exp(f64::from(((-2.0) * t3t) as f32)) as f32)) / t3t) - (2.0 * (t7t * t7t))) - ((t8t * t8t) * 0.6666667), 0.0));
     }
     return SphericalGaussianE2Result { value: t4t, case_id: 0 };
 }

@@ -230,7 +230,7 @@ fn spherical_gaussian_alpha(mu: f32, lambda: f32, a: f32, b: f32) -> f32 {
 // Table:  meaning 1 a4ce657cd5f6c287, 1 cases
 // Inputs: fnv1a 8a4b3d762f1eb402, of texts, weights and options
 // Plan:   ladder
-// Proof:  equal to the table on 1 states, 1 paths; the same operations on each
+// Proof:  equal to the table on 1 states, 2 paths; the same operations on each
 
 // The case where none matches.
 const SPHERICAL_GAUSSIAN_E1_DEFAULT: u32 = 4294967295u;
@@ -261,48 +261,36 @@ fn spherical_gaussian_e1_key_case(key: u32, mu: f32, lambda: f32, a: f32, b: f32
     } else {
         let y = 0.5 * t3t;
         let e = exp(y * (-2.0));
-        let t5t = -t3t;
-        var g: f32;
-        if (t3t < 1.0) {
-            g = 1.0 + (t3t * ((-0.5) + (t3t * (0.16666667 + (t3t * ((-0.041666668) + (t3t * (0.008333334 + (t3t * ((-0.0013888889) + (t3t * (0.0001984127 + (t3t * ((-2.4801588e-5) + (t3t * (2.7557319e-6 + (t3t * (-2.755732e-7))))))))))))))))));
-        } else {
-            g = (1.0 - exp(t5t)) / t3t;
-        }
-        var t6t: f32;
-        if (t3t < 2.3) {
-            let t7t = t3t * (0.15 + (t3t * ((-0.033333335) + (t3t * (0.005952381 + (t3t * ((-0.00089285715) + (t3t * (0.00011574074 + (t3t * ((-1.3227514e-5) + (t3t * (1.3528138e-6 + (t3t * ((-1.2526054e-7) + (t3t * (1.0598969e-8 + (t3t * ((-8.258937e-10) + (t3t * (5.964788e-11 + (t3t * (-4.0147607e-12)))))))))))))))))))))));
-            t6t = 1.0 + (t3t * ((-0.5) + t7t));
-        } else {
-            let t8t = exp(t5t);
-            t6t = (6.0 * ((t3t * (1.0 + t8t)) - (2.0 * (1.0 - t8t)))) / ((t3t * t3t) * t3t);
-        }
-        let s = y * t6t;
-        let t9t = (-1.0) - (((e - g) - (s * (-1.0))) / ((y * e) - s));
+        let t5t = exp(-t3t);
+        let t6t = 1.0 - t5t;
+        let t7t = t6t / t3t;
+        let t8t = y * ((6.0 * ((t3t * (1.0 + t5t)) - (2.0 * t6t))) / ((t3t * t3t) * t3t));
+        let t9t = (-1.0) - (((e - t7t) - (t8t * (-1.0))) / ((y * e) - t8t));
         let t10t = exp(y * (t9t - 1.0));
-        let t11t = t9t - (((t10t - g) - (s * t9t)) / ((y * t10t) - s));
+        let t11t = t9t - (((t10t - t7t) - (t8t * t9t)) / ((y * t10t) - t8t));
         let t12t = exp(y * (t11t - 1.0));
-        let t13t = t11t - (((t12t - g) - (s * t11t)) / ((y * t12t) - s));
+        let t13t = t11t - (((t12t - t7t) - (t8t * t11t)) / ((y * t12t) - t8t));
         let t14t = exp(y * (t13t - 1.0));
-        let t15t = t13t - (((t14t - g) - (s * t13t)) / ((y * t14t) - s));
+        let t15t = t13t - (((t14t - t7t) - (t8t * t13t)) / ((y * t14t) - t8t));
         let t16t = exp(y * (t15t - 1.0));
-        let t17t = t15t - (((t16t - g) - (s * t15t)) / ((y * t16t) - s));
+        let t17t = t15t - (((t16t - t7t) - (t8t * t15t)) / ((y * t16t) - t8t));
         let t18t = exp(y * (t17t - 1.0));
-        let left = t17t - (((t18t - g) - (s * t17t)) / ((y * t18t) - s));
-        let t19t = 0.5 * s;
-        let t20t = 1.0 + (log(g + s) / y);
-        let t21t = exp(y * (t20t - 1.0));
-        let t22t = t20t - (((t21t - g) - (s * t20t)) / ((y * t21t) - s));
-        let t23t = exp(y * (t22t - 1.0));
-        let t24t = t22t - (((t23t - g) - (s * t22t)) / ((y * t23t) - s));
-        let t25t = exp(y * (t24t - 1.0));
-        let t26t = t24t - (((t25t - g) - (s * t24t)) / ((y * t25t) - s));
-        let t27t = exp(y * (t26t - 1.0));
-        let t28t = t26t - (((t27t - g) - (s * t26t)) / ((y * t27t) - s));
-        let t29t = exp(y * (t28t - 1.0));
-        let t30t = t28t - (((t29t - g) - (s * t28t)) / ((y * t29t) - s));
-        let t31t = exp(y * (t30t - 1.0));
-        let right = t30t - (((t31t - g) - (s * t30t)) / ((y * t31t) - s));
-        t4t = ((2.0 * (0.5 * t2t)) * (mu * exp(lambda * (b - 1.0)))) * ((((exp(y * (left - 1.0)) / y) - (g * left)) - (t19t * (left * left))) - (((exp(y * (right - 1.0)) / y) - (g * right)) - (t19t * (right * right))));
+        let t19t = t17t - (((t18t - t7t) - (t8t * t17t)) / ((y * t18t) - t8t));
+        let t20t = 0.5 * t8t;
+        let t21t = 1.0 + (log(t7t + t8t) / y);
+        let t22t = exp(y * (t21t - 1.0));
+        let t23t = t21t - (((t22t - t7t) - (t8t * t21t)) / ((y * t22t) - t8t));
+        let t24t = exp(y * (t23t - 1.0));
+        let t25t = t23t - (((t24t - t7t) - (t8t * t23t)) / ((y * t24t) - t8t));
+        let t26t = exp(y * (t25t - 1.0));
+        let t27t = t25t - (((t26t - t7t) - (t8t * t25t)) / ((y * t26t) - t8t));
+        let t28t = exp(y * (t27t - 1.0));
+        let t29t = t27t - (((t28t - t7t) - (t8t * t27t)) / ((y * t28t) - t8t));
+        let t30t = exp(y * (t29t - 1.0));
+        let t31t = t29t - (((t30t - t7t) - (t8t * t29t)) / ((y * t30t) - t8t));
+        let t32t = exp(y * (t31t - 1.0));
+        let t33t = t31t - (((t32t - t7t) - (t8t * t31t)) / ((y * t32t) - t8t));
+        t4t = ((2.0 * (0.5 * t2t)) * (mu * exp(lambda * (b - 1.0)))) * ((((exp(y * (t19t - 1.0)) / y) - (t7t * t19t)) - (t20t * (t19t * t19t))) - (((exp(y * (t33t - 1.0)) / y) - (t7t * t33t)) - (t20t * (t33t * t33t))));
     }
     return SphericalGaussianE1Result(t4t, 0u);
 }
@@ -329,7 +317,7 @@ fn spherical_gaussian_e1(mu: f32, lambda: f32, a: f32, b: f32) -> f32 {
 // Table:  meaning 1 7e9bc2b23e68dc84, 1 cases
 // Inputs: fnv1a 8a4b3d762f1eb402, of texts, weights and options
 // Plan:   ladder
-// Proof:  equal to the table on 1 states, 1 paths; the same operations on each
+// Proof:  equal to the table on 1 states, 2 paths; the same operations on each
 
 // The case where none matches.
 const SPHERICAL_GAUSSIAN_E2_DEFAULT: u32 = 4294967295u;
@@ -358,24 +346,12 @@ fn spherical_gaussian_e2_key_case(key: u32, mu: f32, lambda: f32, a: f32, b: f32
         let u = y * y;
         t4t = (c * u) * sqrt((0.5 * t2t) * (0.044444446 + (u * (0.0076190475 + (u * (0.0005643739 + (u * (2.443177e-5 + (u * (7.047626e-7 + (u * (1.4617299e-8 + (u * (2.2929e-10 + (u * 2.8211e-12)))))))))))))));
     } else {
+        let t5t = exp(-t3t);
+        let t6t = 1.0 - t5t;
+        let t7t = t6t / t3t;
         let y = 0.5 * t3t;
-        let t5t = -t3t;
-        var g: f32;
-        if (t3t < 1.0) {
-            g = 1.0 + (t3t * ((-0.5) + (t3t * (0.16666667 + (t3t * ((-0.041666668) + (t3t * (0.008333334 + (t3t * ((-0.0013888889) + (t3t * (0.0001984127 + (t3t * ((-2.4801588e-5) + (t3t * (2.7557319e-6 + (t3t * (-2.755732e-7))))))))))))))))));
-        } else {
-            g = (1.0 - exp(t5t)) / t3t;
-        }
-        var t6t: f32;
-        if (t3t < 2.3) {
-            let t7t = t3t * (0.15 + (t3t * ((-0.033333335) + (t3t * (0.005952381 + (t3t * ((-0.00089285715) + (t3t * (0.00011574074 + (t3t * ((-1.3227514e-5) + (t3t * (1.3528138e-6 + (t3t * ((-1.2526054e-7) + (t3t * (1.0598969e-8 + (t3t * ((-8.258937e-10) + (t3t * (5.964788e-11 + (t3t * (-4.0147607e-12)))))))))))))))))))))));
-            t6t = 1.0 + (t3t * ((-0.5) + t7t));
-        } else {
-            let t8t = exp(t5t);
-            t6t = (6.0 * ((t3t * (1.0 + t8t)) - (2.0 * (1.0 - t8t)))) / ((t3t * t3t) * t3t);
-        }
-        let s = y * t6t;
-        t4t = (mu * exp(lambda * (b - 1.0))) * sqrt((0.5 * t2t) * max((((1.0 - exp((-2.0) * t3t)) / t3t) - (2.0 * (g * g))) - ((s * s) * 0.6666667), 0.0));
+        let t8t = y * ((6.0 * ((t3t * (1.0 + t5t)) - (2.0 * t6t))) / ((t3t * t3t) * t3t));
+        t4t = (mu * exp(lambda * (b - 1.0))) * sqrt((0.5 * t2t) * max((((1.0 - exp((-2.0) * t3t)) / t3t) - (2.0 * (t7t * t7t))) - ((t8t * t8t) * 0.6666667), 0.0));
     }
     return SphericalGaussianE2Result(t4t, 0u);
 }

@@ -1,8 +1,9 @@
 //! Levels of findings: the one that a finding has by itself, the one that the
 //! user gives to its code, and cases that acknowledge it.
 
+use super::words;
 use crate::diag::codes::Kind;
-use crate::diag::{Code, Diagnostic, Severity, codes};
+use crate::diag::{Code, Diagnostic, Severity, Spanned, codes};
 use crate::program::Program;
 use crate::table::Allow;
 
@@ -70,10 +71,11 @@ pub struct Findings {
 /// Sets aside what the table acknowledges, then applies the levels of the user.
 ///
 /// An `allow` of a case acknowledges the findings whose first place is in that
-/// case, one of the table those whose first place is in none.
-pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, levels: &LintLevels) -> Findings {
+/// case, one of the table those whose first place is in none, if it names all that
+/// they are about, or nothing at all. Of codes that were not looked for, nothing is
+/// said to acknowledge nothing.
+pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code], levels: &LintLevels) -> Findings {
     let mut findings = Findings::default();
-    let mut used: Vec<bool> = Vec::new();
     let allows: Vec<(Option<usize>, &Allow)> = program
         .rows
         .iter()
@@ -81,29 +83,107 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, levels: &LintLevel
         .flat_map(|(row, case)| case.allow.iter().map(move |allow| (Some(row), allow)))
         .chain(program.allow.iter().map(|allow| (None, allow)))
         .collect();
-    used.resize(allows.len(), false);
+    // For each of them, what the findings of its code and place are about, if there are any.
+    let mut about: Vec<Option<Vec<String>>> = vec![None; allows.len()];
     for finding in found {
         let place = finding.labels.first().map(|label| label.span);
         let row = place.and_then(|place| {
             program.rows.iter().position(|row| row.span.start <= place.start && place.end <= row.span.end)
         });
-        let fits = |(of, allow): &(Option<usize>, &Allow)| *of == row && allow.code.value == finding.code.0;
-        match allows.iter().position(fits) {
+        let of_code = |(of, allow): &&(Option<usize>, &Allow)| *of == row && allow.code.value == finding.code.0;
+        let covers = |(_, allow): &(Option<usize>, &Allow)| unnamed(allow, &finding).is_empty();
+        for (number, _) in allows.iter().enumerate().filter(|(_, entry)| of_code(entry)) {
+            about[number].get_or_insert_default().extend(finding.about.iter().cloned());
+        }
+        let fits = allows.iter().position(|entry| of_code(&entry) && covers(entry));
+        match fits {
             // What contradicts the table's own declarations cannot be talked away.
             Some(number) if finding.severity != Severity::Error => {
-                used[number] = true;
                 findings.acknowledged.push((finding, allows[number].1.reason.clone()));
             }
-            _ => findings.open.push(finding),
+            _ => {
+                let others: Vec<&Allow> = allows.iter().filter(of_code).map(|(_, allow)| *allow).collect();
+                // Nobody mends an exhibit, or acknowledges what is wrong with it.
+                findings.open.push(match program.exhibit {
+                    None => with_advice(finding, &others),
+                    Some(_) => finding,
+                });
+            }
         }
     }
-    for ((row, allow), used) in allows.iter().zip(used) {
-        if !used {
-            findings.open.push(unused(program, *row, allow));
+    for ((row, allow), about) in allows.iter().zip(about) {
+        if !left_out.iter().any(|code| code.0 == allow.code.value) {
+            findings.open.extend(questionable(program, *row, allow, about.as_deref()));
         }
     }
     levels.apply(&mut findings.open);
     findings
+}
+
+/// The things that a finding is about and an `allow` does not name.
+fn unnamed<'f>(allow: &Allow, finding: &'f Diagnostic) -> Vec<&'f str> {
+    let Some(with) = &allow.with else { return Vec::new() };
+    let about = finding.about.iter().map(String::as_str);
+    about.filter(|thing| !with.iter().any(|named| named.value == *thing)).collect()
+}
+
+/// A finding with the `allow` that would acknowledge it; `others` are those of its place and code that do not.
+fn with_advice(finding: Diagnostic, others: &[&Allow]) -> Diagnostic {
+    if finding.severity == Severity::Error || finding.about.is_empty() {
+        return finding;
+    }
+    match others.iter().map(|allow| unnamed(allow, &finding)).min_by_key(Vec::len) {
+        Some(new) => {
+            let new = format!("new is {}; if that stays as well, add it to `with`: {}", quoted(&new), listed(&new));
+            finding.help(new)
+        }
+        None => {
+            let about: Vec<&str> = finding.about.iter().map(String::as_str).collect();
+            let allow = format!("(code: \"{}\", with: {}, reason: \"...\")", finding.code, listed(&about));
+            finding.help(format!("if it is understood and stays: allow: [{allow}]"))
+        }
+    }
+}
+
+/// Things as RON lists them.
+fn listed(things: &[&str]) -> String {
+    let things: Vec<String> = things.iter().map(|thing| format!("{thing:?}")).collect();
+    format!("[{}]", things.join(", "))
+}
+
+fn quoted(things: &[&str]) -> String {
+    words::list(&things.iter().map(|thing| format!("`{thing}`")).collect::<Vec<_>>())
+}
+
+/// The finding about an `allow`: that it acknowledges nothing, names what is not there, or does not say what it
+/// acknowledges. `about` is what the findings of its code and place are about, if there are any.
+fn questionable(program: &Program, row: Option<usize>, allow: &Allow, about: Option<&[String]>) -> Option<Diagnostic> {
+    let code = &allow.code.value;
+    let Some(about) = about else { return Some(unused(program, row, allow)) };
+    let Some(with) = &allow.with else {
+        let mut things: Vec<&str> = Vec::new();
+        for thing in about {
+            if !things.contains(&thing.as_str()) {
+                things.push(thing);
+            }
+        }
+        let message = format!("this `allow` acknowledges every finding of {code} here, also new ones");
+        return (!things.is_empty()).then(|| {
+            Diagnostic::note(codes::WIDE_ALLOW, message)
+                .at(allow.span, "")
+                .help(format!("to acknowledge those that there are: with: {}", listed(&things)))
+        });
+    };
+    let gone = with.iter().filter(|thing| !about.contains(&thing.value));
+    let gone: Vec<&Spanned<String>> = gone.collect();
+    let first = gone.first()?;
+    let things: Vec<&str> = gone.iter().map(|thing| thing.value.as_str()).collect();
+    let message = format!("nothing to acknowledge for {} of `{code}`", quoted(&things));
+    Some(
+        Diagnostic::warning(codes::UNUSED_ALLOW, message)
+            .at(first.span, "no finding here is about this")
+            .help("remove it, so that it hides nothing that is new"),
+    )
 }
 
 fn unused(program: &Program, row: Option<usize>, allow: &Allow) -> Diagnostic {
@@ -124,6 +204,53 @@ fn unused(program: &Program, row: Option<usize>, allow: &Allow) -> Diagnostic {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A table whose lines 1 and 2 cross, or 1 and 3 as well, with an `allow`.
+    fn checked(third: &str, allow: &str) -> Vec<String> {
+        crate::analyse::found(&format!(
+            r#"Table(language: 1, name: "t", hit_policy: First,
+                inputs: {{"a": Bool(), "b": Bool(), "c": Bool(), "x": Range(from: 0, to: 1)}},
+                output: Number(),
+                cases: [Case(id: 4, when: true, lines: [("x", "a"), ("1 - x", "b"), ("0.5", "{third}"), "0"],
+                    allow: [{allow}])],
+                default: "if c {{ 0 }} else {{ 1 }}")"#
+        ))
+    }
+
+    #[test]
+    fn an_allow_covers_what_it_names() {
+        let crossing = "U0508 lines 1 and 2 of case 4 can apply together, with different values";
+        let more = "U0508 lines 1 and 2 of case 4 can apply together, with different values; so can 2 more pairs";
+        let narrow = r#"(code: "U0508", with: ["lines 1 and 2"], reason: "so it is printed")"#;
+        assert_eq!(
+            checked("!a && !b && c", r#"(code: "U0511", reason: "none")"#).first().map(String::as_str),
+            Some(crossing)
+        );
+        assert_eq!(checked("!a && !b && c", narrow), [""; 0]);
+        // Line 3 crosses as well: that is new, and all of it is shown, but the `allow` is not called needless.
+        assert_eq!(checked("c", narrow), [more]);
+        // Without names it covers everything, which is said.
+        let wide = checked("c", r#"(code: "U0508", reason: "so it is printed")"#);
+        assert_eq!(wide, ["U0532 this `allow` acknowledges every finding of U0508 here, also new ones"]);
+        let stale = r#"(code: "U0508", with: ["lines 1 and 2", "lines 2 and 9"], reason: "so it is printed")"#;
+        assert_eq!(checked("!a && !b && c", stale), ["U0531 nothing to acknowledge for `lines 2 and 9` of `U0508`"]);
+    }
+
+    #[test]
+    fn advice_can_be_pasted() {
+        let text = r#"Table(language: 1, name: "t", hit_policy: First,
+            inputs: {"a": Bool(), "b": Bool()}, output: Number(),
+            cases: [Case(id: 4, when: true, lines: [("1", "a"), ("2", "b"), "0"])], default: 0)"#;
+        let program = |text: &str| {
+            let table = crate::table::Table::parse(crate::diag::Source::new("t.ron", text));
+            table.and_then(|table| Program::check(&table)).unwrap_or_else(|e| panic!("{e}"))
+        };
+        let found = crate::analyse::findings(&program(text));
+        let advice = found[0].notes.iter().find_map(|note| note.strip_prefix("if it is understood and stays: "));
+        let advice = advice.expect("a finding about lines has advice").replace("...", "a test");
+        let mended = text.replace("\"0\"])", &format!("\"0\"], {advice})"));
+        assert!(crate::analyse::findings(&program(&mended)).is_empty(), "{advice}");
+    }
 
     #[test]
     fn levels_are_for_findings() {

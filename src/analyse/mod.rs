@@ -16,9 +16,10 @@ pub mod trial;
 pub(crate) mod values;
 mod words;
 
-use crate::diag::{Diagnostic, Severity, codes};
+use crate::diag::{Code, Diagnostic, Severity, codes};
 use crate::program::Program;
 use findings::{Analysis, Run};
+use sets::budget::STEPS;
 use sets::study::Study;
 
 pub use findings::accuracy::allowance;
@@ -52,7 +53,12 @@ pub fn findings(program: &Program) -> Vec<Diagnostic> {
 /// # Ok::<(), umbrage::diag::Failure>(())
 /// ```
 pub fn report(program: &Program, levels: &LintLevels) -> Findings {
-    let mut found = Vec::new();
+    report_within(program, levels, STEPS)
+}
+
+/// The same, with so many steps for each analysis of sets.
+fn report_within(program: &Program, levels: &LintLevels, steps: u64) -> Findings {
+    let (mut found, mut left_out) = (Vec::new(), Vec::new());
     let mut study = None;
     for Analysis { codes, run } in findings::ALL {
         let more = match run {
@@ -60,11 +66,20 @@ pub fn report(program: &Program, levels: &LintLevels) -> Findings {
             // A function has no cases that could contradict each other, and `accuracy` and `singular` look at its numbers.
             Run::Sets(_) if program.function.is_some() => continue,
             Run::Sets(run) => {
-                let study = study.get_or_insert_with(|| Study::new(program));
+                let study = study.get_or_insert_with(|| {
+                    let study = Study::within(program, steps);
+                    (!study.space.is_too_large()).then_some(study)
+                });
+                // Without its cases as sets, nothing else is worth anything either.
+                let Some(study) = study.as_mut() else {
+                    left_out.extend(*codes);
+                    continue;
+                };
+                study.space.begin();
                 let more = run(study);
                 if study.space.is_too_large() {
-                    found.push(not_analysed(program));
-                    break;
+                    left_out.extend(*codes);
+                    continue;
                 }
                 more
             }
@@ -75,29 +90,42 @@ pub fn report(program: &Program, levels: &LintLevels) -> Findings {
         );
         found.extend(more);
     }
+    left_out.retain(|code| *code != codes::NOT_ANALYSED);
+    if !left_out.is_empty() {
+        found.push(not_analysed(program, &left_out));
+    }
     drop_duplicates(&mut found);
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-    lints::sort(program, found, levels)
+    lints::sort(program, found, &left_out, levels)
 }
 
-/// Drops findings of `numbers` about a division by zero that `singular` reports, too:
-/// of the same place, it knows the limit as well.
+/// Drops findings of `numbers` about a division by zero that `singular` reports, too: of the same place,
+/// it knows the limit as well. And those of formulas that are one number, where that is beyond the clamp.
 fn drop_duplicates(found: &mut Vec<Diagnostic>) {
-    let limits = [codes::REMOVABLE, codes::POLE];
     let place = |finding: &Diagnostic| finding.labels.first().map(|label| label.span);
-    let known: Vec<_> = found.iter().filter(|f| limits.contains(&f.code)).filter_map(place).collect();
+    let known = |found: &[Diagnostic], better: &[Code]| -> Vec<_> {
+        found.iter().filter(|finding| better.contains(&finding.code)).filter_map(place).collect()
+    };
+    let limits = known(found, &[codes::REMOVABLE, codes::POLE]);
+    let clamped = known(found, &[codes::OUT_OF_RANGE]);
     let divides = |finding: &Diagnostic| finding.labels.iter().any(|label| label.message.contains("division by zero"));
-    let is_known = |finding: &Diagnostic| place(finding).is_some_and(|p| known.contains(&p));
-    found.retain(|finding| finding.code != codes::NOT_A_NUMBER || !(divides(finding) && is_known(finding)));
+    found.retain(|finding| {
+        let is_in = |places: &[_]| place(finding).is_some_and(|place| places.contains(&place));
+        let limit = finding.code == codes::NOT_A_NUMBER && divides(finding) && is_in(&limits);
+        !limit && !(finding.code == codes::SETTLED && is_in(&clamped))
+    });
     // What was not analysed is said once of a case, however many of its lines and components it is true of.
     let mut said = std::collections::HashSet::new();
     found.retain(|finding| finding.code != codes::NOT_ANALYSED || said.insert(finding.message.clone()));
 }
 
-fn not_analysed(program: &Program) -> Diagnostic {
-    Diagnostic::note(codes::NOT_ANALYSED, "the table is too intricate for some analyses, which were left out")
+/// The note that some analyses stopped, or could not begin.
+fn not_analysed(program: &Program, left_out: &[Code]) -> Diagnostic {
+    let codes: Vec<String> = left_out.iter().map(Code::to_string).collect();
+    let message = format!("the table is too intricate to look for {}", words::list(&codes));
+    Diagnostic::note(codes::NOT_ANALYSED, message)
         .at(program.hit_policy_span, "")
-        .help("sets of its inputs, or the values of one of its lines, take more than the limits allow")
+        .help("sets of its inputs, or the values of one of its lines, take more work than the limits allow")
         .help("split the table, or write conditions on fewer inputs")
 }
 
@@ -116,4 +144,32 @@ fn found(text: &str) -> Vec<String> {
     let program = Table::parse(Source::new("test.ron", text)).and_then(|table| Program::check(&table));
     let program = program.unwrap_or_else(|e| panic!("{e}"));
     findings(&program).iter().map(|d| format!("{} {}", d.code, d.message)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The published tables take a hundredth of what an analysis may do; with less than they take, what was
+    /// not looked for is named, and nothing else is claimed of it.
+    #[test]
+    fn an_analysis_stops_and_says_for_what_it_was_looking() {
+        for table in ["tables/rsmss.ron", "tables/published/rsmss_as_printed.ron"] {
+            let program = Program::read(table).unwrap_or_else(|e| panic!("{e}"));
+            let found = |steps: u64| {
+                let found = report_within(&program, &LintLevels::default(), steps);
+                let shown = |finding: &Diagnostic| format!("{} {}", finding.code, finding.message);
+                found.open.iter().map(shown).collect::<Vec<_>>()
+            };
+            let all = found(STEPS);
+            assert_eq!(found(STEPS / 10), all, "{table}");
+            for steps in [1, 1000, 100_000] {
+                let some = found(steps);
+                let note = some.iter().find(|message| message.starts_with("U0530")).expect("it stopped");
+                assert!(note.contains("too intricate to look for U0") && !note.contains("U0530 U0530"), "{note}");
+                let others = some.iter().filter(|message| *message != note);
+                assert!(others.clone().all(|message| all.contains(message)), "{table} {steps}: {some:?}");
+            }
+        }
+    }
 }

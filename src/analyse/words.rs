@@ -217,6 +217,24 @@ pub(super) fn cases(program: &Program, rows: &[Option<usize>]) -> String {
     }
 }
 
+/// A line of a case, or what stands in for one, as an `allow` names it.
+pub(super) fn named(program: &Program, place: (Option<usize>, Option<usize>)) -> String {
+    match place {
+        (Some(row), None) => format!("case {} without a line", program.rows[row].id),
+        (Some(_), Some(_)) | (None, _) => called(program, place),
+    }
+}
+
+/// The same, as it is called in sentences.
+pub(super) fn called(program: &Program, (row, line): (Option<usize>, Option<usize>)) -> String {
+    match (row.map(|row| &program.rows[row]), line) {
+        (Some(row), Some(line)) if row.lines.len() > 1 => format!("line {} of case {}", line + 1, row.id),
+        (Some(row), Some(_)) => format!("case {}", row.id),
+        (Some(row), None) => format!("case {}, which has no line for this,", row.id),
+        (None, _) => "the default".to_owned(),
+    }
+}
+
 /// `a`, `a and b`, `a, b and c`; of many only the first.
 pub(super) fn list(items: &[String]) -> String {
     const SHOWN: usize = 12;

@@ -55,8 +55,9 @@ pub(super) fn run(arguments: &ErrataArguments) -> Result<Outcome> {
              One small mistake is made in a mended table, {} times each, of six kinds in turn (seed {}). A\n\
              mistake is *harmless* if the table gives the same wherever the assumptions hold, as far as sampled\n\
              points tell; *refused* if no meaningful table is left. The others are *caught* if `check` says\n\
-             something that it does not say of the right table, with its examples taken away. The last column\n\
-             is the share of what is caught among mistakes that are not harmless.\n\n",
+             something that it does not say of the right table, with its examples taken away; that a name in an\n\
+             `allow` is about nothing any more counts as well. The last column is the share of what is caught\n\
+             among mistakes that are not harmless.\n\n",
             arguments.mistakes, arguments.seed
         ));
         for (_, mended, table) in &pairs {

@@ -104,6 +104,7 @@ fn object(source: &Source, diagnostic: &Diagnostic) -> Value {
         "file": source.name,
         "labels": diagnostic.labels.iter().map(label).collect::<Vec<_>>(),
         "notes": diagnostic.notes,
+        "about": diagnostic.about,
     })
 }
 

@@ -137,11 +137,14 @@ registry! {
     NOT_A_NUMBER = "U0514", Finding, Warning, "an operation that can yield infinity or NaN";
     FLOAT_EQUALITY = "U0515", Finding, Warning, "numbers that are compared for equality";
     JUMP = "U0516", Finding, Warning, "the value jumps at a border or switch where it is declared not to";
+    SETTLED = "U0517", Finding, Warning, "a formula that is one number wherever it counts";
     INEXACT = "U0520", Finding, Note, "a constant that no `f32` equals (a note), or an integer that `f32` takes for another one";
     MERGEABLE = "U0521", Finding, Note, "cases that could be one (a note)";
     RENAMED = "U0522", Finding, Note, "a name that a target language has to change (a note)";
+    REPEATED = "U0523", Finding, Warning, "a condition that asks for the same thing twice";
     NOT_ANALYSED = "U0530", Finding, Note, "an analysis that could not be done, with the reason (a note)";
     UNUSED_ALLOW = "U0531", Finding, Warning, "an `allow` that acknowledges nothing";
+    WIDE_ALLOW = "U0532", Finding, Note, "an `allow` that does not say what it acknowledges (a note)";
     REMOVABLE = "U0551", Finding, Warning, "a divisor is zero at a point of the domain where the whole has a limit";
     POLE = "U0552", Finding, Warning, "a divisor is zero at a point of the domain, and there is no limit";
     CANCELS = "U0553", Finding, Warning, "equal terms on both sides of a difference are divided by something small";

@@ -53,6 +53,9 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// Further lines: what was expected, and how to mend it.
     pub notes: Vec<String>,
+    /// The subject of a finding, apart from its code and its first place: lines, cases, symmetries,
+    /// sizes. An `allow` of a table names the same; with anything else it is another finding.
+    pub about: Vec<String>,
 }
 
 impl Diagnostic {
@@ -72,7 +75,7 @@ impl Diagnostic {
     }
 
     fn new(severity: Severity, code: Code, message: impl Into<String>) -> Self {
-        Self { code, severity, message: message.into(), labels: Vec::new(), notes: Vec::new() }
+        Self { code, severity, message: message.into(), labels: Vec::new(), notes: Vec::new(), about: Vec::new() }
     }
 
     /// Points at a place.
@@ -84,6 +87,16 @@ impl Diagnostic {
     /// Adds a line of help.
     pub fn help(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
+        self
+    }
+
+    /// Says what a finding is about; each thing once, in the order of the first mention.
+    pub fn about<S: Into<String>>(mut self, things: impl IntoIterator<Item = S>) -> Self {
+        for thing in things.into_iter().map(Into::into) {
+            if !self.about.contains(&thing) {
+                self.about.push(thing);
+            }
+        }
         self
     }
 

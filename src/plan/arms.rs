@@ -44,8 +44,17 @@ impl Arms {
         Ok(arms)
     }
 
-    /// The steps of each way.
+    /// The steps of each way: chains of its rows.
     pub(super) fn steps(&self, builder: &mut Builder<'_>) -> Result<Vec<StepId>> {
+        self.steps_by(builder, |builder, rows, known| builder.rows(rows, known))
+    }
+
+    /// The steps of each way, made of its rows by `make`.
+    pub(super) fn steps_by<'p>(
+        &self,
+        builder: &mut Builder<'p>,
+        mut make: impl FnMut(&mut Builder<'p>, &Guarded, &Knowledge) -> Result<StepId>,
+    ) -> Result<Vec<StepId>> {
         let program = builder.program;
         let mut steps = Vec::with_capacity(self.ways.len());
         for (rows, hull) in &self.ways {
@@ -53,7 +62,7 @@ impl Arms {
             for (input, _) in program.states.digits() {
                 known.restrict(*input, hull[input.index()]);
             }
-            steps.push(builder.rows(rows, &known)?);
+            steps.push(make(builder, rows, &known)?);
         }
         Ok(steps)
     }

@@ -171,7 +171,8 @@ impl<'p> Builder<'p> {
         rows
     }
 
-    fn missing(&self, inputs: InputSet, known: &Knowledge) -> InputSet {
+    /// The fetched inputs among some that were not fetched yet.
+    pub(super) fn missing(&self, inputs: InputSet, known: &Knowledge) -> InputSet {
         inputs.and(self.program.fetched).minus(known.fetched)
     }
 

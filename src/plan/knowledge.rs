@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::program::{Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
+use crate::program::comparisons::Comparisons;
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, Node, Pool, Program};
 
 /// The facts that hold at a step.
 #[derive(Debug, Clone)]
@@ -11,7 +12,9 @@ pub(super) struct Knowledge {
     pub(super) fetched: InputSet,
     /// Levels that each discrete input may still have.
     levels: Vec<LevelSet>,
-    /// Conditions that were tested.
+    /// The outcomes of comparisons.
+    compared: Comparisons,
+    /// Other conditions that were tested.
     tested: Vec<(CondId, bool)>,
 }
 
@@ -21,7 +24,7 @@ impl Knowledge {
         let levels = (0..program.inputs.len())
             .map(|i| LevelSet::all(program.levels(InputId::new(i)).map_or(0, |levels| levels.count())))
             .collect();
-        Self { fetched: InputSet::default(), levels, tested: Vec::new() }
+        Self { fetched: InputSet::default(), levels, compared: Comparisons::default(), tested: Vec::new() }
     }
 
     /// Restricts the levels of an input.
@@ -61,10 +64,14 @@ impl Knowledge {
             Cond::Not(inner) => self.assume(pool, *inner, !value),
             Cond::And(parts) if value => parts.iter().for_each(|part| self.assume(pool, *part, true)),
             Cond::Or(parts) if !value => parts.iter().for_each(|part| self.assume(pool, *part, false)),
-            Cond::Const(_) | Cond::Compare(..) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => {
-                self.tested.push((condition, value))
-            }
+            Cond::Compare(op, a, b) => self.compared.learn(pool, *op, *a, *b, value),
+            Cond::Const(_) | Cond::And(_) | Cond::Or(_) | Cond::If(..) => self.tested.push((condition, value)),
         }
+    }
+
+    /// The outcome of a comparison, as far as other comparisons say.
+    pub(super) fn compared(&self, pool: &Pool, op: Comparison, a: ExprId, b: ExprId) -> Option<bool> {
+        self.compared.decide(pool, op, a, b)
     }
 
     /// A condition, with everything known put in.
@@ -84,7 +91,10 @@ impl Knowledge {
             }
             Cond::Compare(op, a, b) => {
                 let (a, b) = (self.expr(pool, a), self.expr(pool, b));
-                pool.recompare(op, a, b)
+                match self.compared.decide(pool, op, a, b) {
+                    Some(outcome) => pool.always(outcome),
+                    None => pool.recompare(op, a, b),
+                }
             }
             Cond::Not(a) => {
                 let a = self.cond(pool, a);

@@ -15,6 +15,7 @@ mod graph;
 mod key;
 mod knowledge;
 mod order;
+mod search;
 mod setting;
 mod shapes;
 #[cfg(test)]

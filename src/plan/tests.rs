@@ -2,6 +2,7 @@
 //! what the interpreter gives, and what is changed afterwards is refused.
 
 mod extremes;
+mod intervals;
 mod mutations;
 
 use super::walk::{Walked, Walker};

@@ -146,7 +146,7 @@ impl Meaning<'_> {
         for (input, to) in &symmetry.numbers {
             words = words.text(name(*input)).word(self.expr(*to));
         }
-        let result = symmetry.result.iter().map(|result| self.expr(*result)).collect();
+        let result = symmetry.result.iter().flatten().map(|component| self.expr(*component)).collect();
         words.list(result).hash()
     }
 
@@ -172,7 +172,8 @@ impl Meaning<'_> {
         let words = match node {
             Node::Const(number) => Words::of("number").number(number.get()),
             Node::Input(input) => Words::of("input").word(input.index() as u64),
-            Node::Result => Words::of("result"),
+            Node::Result(0) => Words::of("result"),
+            Node::Result(component) => Words::of("result").word(u64::from(component)),
             Node::Unary(op, _) => Words::of("unary").text(&format!("{op:?}")),
             Node::Binary(op, ..) => Words::of("binary").text(&format!("{op:?}")),
             Node::Ternary(op, ..) => Words::of("ternary").text(&format!("{op:?}")),
@@ -236,7 +237,8 @@ fn output(of: &Output) -> u64 {
             fields.iter().fold(words, |words, (name, field)| words.text(name).word(output(field)))
         }
         Output::Enumeration(of) => Words::of("enumeration").word(levels(of)),
-        Output::List { of, max } => Words::of("list").word(output(of)).word(*max as u64),
+        // What `same` says concerns checks, not results.
+        Output::List { of, max, same: _ } => Words::of("list").word(output(of)).word(*max as u64),
     }
     .hash()
 }

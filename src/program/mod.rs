@@ -18,6 +18,7 @@
 #![deny(clippy::wildcard_enum_match_arm)]
 
 pub(crate) mod claims;
+pub(crate) mod comparisons;
 pub mod data_type;
 mod domain;
 pub mod draw;
@@ -134,6 +135,8 @@ pub struct Written {
     pub unused_helpers: Vec<Spanned<String>>,
     /// Numbers that no `f32` equals.
     pub inexact: Vec<(f64, Span)>,
+    /// Operands of `&&` and `||` that stand there twice, with the first place.
+    pub repeated: Vec<(Span, Span)>,
     /// The choices, an `if` or `select` each, in the order written.
     pub choices: Vec<Choice>,
 }

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
+use super::operators::{ANY, BinaryOp, Bounded, Bounds, Comparison, TernaryAlgebra, TernaryOp, UnaryOp};
 use super::{InputId, Real};
 
 /// An expression in a [`Pool`].
@@ -177,11 +177,14 @@ pub struct Facts {
     pub inputs: InputSet,
     /// True if there is a selection anywhere in it.
     pub selects: bool,
+    /// Of a number, what it lies between wherever inputs are in their domains, also in `f32`;
+    /// everything if it may be infinite or no number.
+    pub range: Bounds,
 }
 
 impl Facts {
     fn leaf(inputs: InputSet) -> Self {
-        Self { depth: 1, size: 1, inputs, selects: false }
+        Self { depth: 1, size: 1, inputs, selects: false, range: ANY }
     }
 
     fn join(parts: impl IntoIterator<Item = Facts>) -> Self {
@@ -190,6 +193,7 @@ impl Facts {
             size: all.size.saturating_add(part.size),
             inputs: all.inputs.or(part.inputs),
             selects: all.selects || part.selects,
+            range: ANY,
         })
     }
 }
@@ -202,7 +206,12 @@ pub struct Pool {
     expr_index: HashMap<Node, ExprId>,
     cond_index: HashMap<Cond, CondId>,
     labels: HashMap<ExprId, String>,
+    /// By input, what its domain spans, where that was told.
+    domains: Vec<Bounds>,
 }
+
+/// Magnitudes beyond this are not taken for finite in `f32`, whatever was rounded on the way.
+const LARGE: f64 = 1e38;
 
 impl Pool {
     /// The node of an expression.
@@ -296,10 +305,39 @@ impl Pool {
             let facts = Facts::join(node.children().map(|part| self.expr_facts(part)).chain(condition));
             Facts { selects: facts.selects || condition.is_some(), ..facts }
         };
+        let facts = Facts { range: self.range(node), ..facts };
         let id = ExprId(self.exprs.len() as u32);
         self.exprs.push((node, facts));
         self.expr_index.insert(node, id);
         id
+    }
+
+    /// The numbers that an expression lies between.
+    fn range(&self, node: Node) -> Bounds {
+        let of = |part: ExprId| self.expr_facts(part).range;
+        let image: Bounded = match node {
+            Node::Const(number) => ((number.get(), number.get()), None),
+            Node::Input(input) => (self.domains.get(input.index()).copied().unwrap_or(ANY), None),
+            Node::Result(_) => (ANY, None),
+            Node::Unary(op, a) if op.row().is_plain => op.image(of(a)),
+            Node::Binary(op, a, b) if op.row().is_plain || op == BinaryOp::Divide => op.image(of(a), of(b)),
+            // What the others give where their operands are rounded is another question.
+            Node::Unary(..) | Node::Binary(..) => (ANY, None),
+            Node::Ternary(op, a, b, c) => match (op.row().algebra, [of(a), of(b), of(c)]) {
+                (TernaryAlgebra::Opaque, _) => (ANY, None),
+                (TernaryAlgebra::Clamp | TernaryAlgebra::ProductAndSum | TernaryAlgebra::Mix, parts) => {
+                    if parts.contains(&ANY) { (ANY, None) } else { op.image(parts[0], parts[1], parts[2]) }
+                }
+            },
+            Node::Select(_, a, b) => ((of(a).0.min(of(b).0), of(a).1.max(of(b).1)), None),
+        };
+        match image {
+            ((lo, hi), None) if lo > -LARGE && hi < LARGE => {
+                let rounded = |bound: f64| bound.abs() * 1e-6 + f64::from(f32::MIN_POSITIVE);
+                (lo - rounded(lo), hi + rounded(hi))
+            }
+            _ => ANY,
+        }
     }
 
     fn intern_cond(&mut self, cond: Cond) -> CondId {
@@ -322,6 +360,14 @@ impl Pool {
     pub fn number(&mut self, value: f64) -> ExprId {
         // One zero: WGSL lets an implementation ignore its sign.
         self.intern(Node::Const(Number::new(if value == 0.0 { 0.0 } else { value })))
+    }
+
+    /// Says between which numbers an input lies, before it is mentioned.
+    pub fn declare(&mut self, input: InputId, domain: Bounds) {
+        if self.domains.len() <= input.index() {
+            self.domains.resize(input.index() + 1, ANY);
+        }
+        self.domains[input.index()] = domain;
     }
 
     /// A continuous input.

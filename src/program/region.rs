@@ -7,7 +7,7 @@
 //! answer "cannot hold" is always right, "can hold" is then not certain.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::normal::{Affine, Term};
 use super::rational::Rational;
@@ -15,6 +15,10 @@ use super::{Domain, InputId, Program};
 
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
 const MAX_CONSTRAINTS: usize = 512;
+/// So many constraints are eliminated as they are.
+const FEW: usize = 12;
+/// Most pairs of constraints that one elimination may look at.
+const MAX_PAIRS: usize = 1 << 14;
 
 /// The sign of a form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,9 +55,13 @@ struct Constraint {
     strict: bool,
 }
 
-/// Returns whether the forms can have these signs at one point of the program's domain.
-pub(crate) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>) -> bool {
-    feasible(program, signs, &mut Vec::new()).unwrap_or(true)
+/// Steps of an operation on sets that looking at a constraint, or at a pair of them, takes as long as.
+const STEPS: usize = 20;
+
+/// Returns whether the forms can have these signs at one point of the program's domain. Adds to `work` what
+/// that took, in steps of an operation on sets.
+pub(crate) fn can_hold<'a>(program: &Program, signs: impl Iterator<Item = (&'a Affine, Sign)>, work: &mut u64) -> bool {
+    feasible(program, signs, &mut Vec::new(), work).unwrap_or(true)
 }
 
 /// A point of the program's domain at which the forms have these signs, by
@@ -64,7 +72,7 @@ pub(crate) fn point<'a>(
     signs: impl Iterator<Item = (&'a Affine, Sign)>,
 ) -> Option<BTreeMap<InputId, Rational>> {
     let mut steps = Vec::new();
-    if feasible(program, signs, &mut steps) != Some(true) {
+    if feasible(program, signs, &mut steps, &mut 0) != Some(true) {
         return None;
     }
     let mut point: BTreeMap<Term, Rational> = BTreeMap::new();
@@ -112,6 +120,7 @@ fn feasible<'a>(
     program: &Program,
     signs: impl Iterator<Item = (&'a Affine, Sign)>,
     steps: &mut Vec<Step>,
+    work: &mut u64,
 ) -> Option<bool> {
     let minus = Rational::whole(-1);
     let mut constraints = Vec::new();
@@ -141,7 +150,7 @@ fn feasible<'a>(
     }
     for variable in &variables {
         let (mut above, mut below, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-        for constraint in constraints {
+        for constraint in tightest(constraints) {
             match constraint.form.terms.get(variable) {
                 Some(factor) if factor.is_positive() => above.push(constraint),
                 Some(_) => below.push(constraint),
@@ -150,19 +159,54 @@ fn feasible<'a>(
                 None => {}
             }
         }
+        let pairs = above.len() * below.len();
+        if pairs > MAX_PAIRS {
+            return None;
+        }
+        *work += ((pairs + kept.len() + above.len() + below.len()) * STEPS) as u64;
         for a in &above {
             for b in &below {
                 kept.push(a.without(variable, b)?);
             }
         }
-        if kept.len() > MAX_CONSTRAINTS {
+        constraints = tightest(kept);
+        if constraints.len() > MAX_CONSTRAINTS {
             return None;
         }
-        constraints = kept;
         above.append(&mut below);
         steps.push((variable.clone(), above));
     }
     Some(!constraints.iter().any(Constraint::violated))
+}
+
+/// Of constraints that bound the same multiple of the same terms, the one from which the others follow.
+/// Many constants that one number is compared with leave two constraints, whatever their number.
+fn tightest(constraints: Vec<Constraint>) -> Vec<Constraint> {
+    if constraints.len() <= FEW {
+        return constraints;
+    }
+    let mut places: HashMap<BTreeMap<Term, Rational>, usize> = HashMap::new();
+    let mut kept: Vec<Constraint> = Vec::new();
+    for Constraint { form, strict } in constraints {
+        let scale = form.terms.values().next().and_then(|leading| leading.abs().reciprocal());
+        let Some(form) = scale.and_then(|scale| form.times(scale)) else {
+            kept.push(Constraint { form, strict });
+            continue;
+        };
+        match places.get(&form.terms) {
+            Some(place) => {
+                let known = &mut kept[*place];
+                if form.constant < known.form.constant || form.constant == known.form.constant && strict {
+                    *known = Constraint { form, strict };
+                }
+            }
+            None => {
+                places.insert(form.terms.clone(), kept.len());
+                kept.push(Constraint { form, strict });
+            }
+        }
+    }
+    kept
 }
 
 impl Constraint {
@@ -202,7 +246,7 @@ mod tests {
             output: Number(), cases: [Case(id: 1, when: "x < y", value: 1)], default: 0)"#;
         let table = Table::parse(Source::new("t", text)).unwrap_or_else(|e| panic!("{e}"));
         let program = Program::check(&table).unwrap_or_else(|e| panic!("{e}"));
-        let can = |signs: &[(Affine, Sign)]| can_hold(&program, signs.iter().map(|(form, sign)| (form, *sign)));
+        let can = |signs: &[(Affine, Sign)]| can_hold(&program, signs.iter().map(|(form, sign)| (form, *sign)), &mut 0);
         use Sign::{Negative, Positive, Zero};
         assert!(can(&[(affine(1, 1, -2), Zero)]));
         assert!(!can(&[(affine(1, 1, -2), Positive)]));

@@ -10,12 +10,13 @@
 //! domain are given. For tables that are piecewise linear all that is found
 //! here is therefore exact.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 
-use super::normal::{Affine, Normaliser};
+use super::normal::{Affine, Normaliser, Term};
 use super::operators::{BinaryAlgebra, TernaryAlgebra, UnaryAlgebra};
 use super::print::Printer;
+use super::rational::Rational;
 use super::region::{self, Sign};
 use super::{
     BinaryOp, Comparison, Cond, CondId, ExprId, InputId, InputSet, LevelSet, LevelTerm, Node, Pool, Program, Symmetry,
@@ -39,7 +40,7 @@ impl View<'_> {
     pub(crate) const PLAIN: Self = View { symmetry: None, result: None };
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Question {
     /// The level of a fetched input.
     Level(InputId),
@@ -74,6 +75,8 @@ pub(crate) struct Machine<'p> {
     /// Fetched inputs that are not there, so that code finds the first level or the least number.
     absent: InputSet,
     choices: Vec<Choice>,
+    /// The place of each question among them.
+    asked: HashMap<Question, usize>,
     /// The forms asked for, and their numbers. Multiples of a form share one.
     forms: Vec<Affine>,
     form_index: HashMap<Affine, usize>,
@@ -111,6 +114,7 @@ impl<'p> Machine<'p> {
             normaliser: Normaliser::default(),
             levels: vec![0; program.inputs.len()],
             choices: Vec::new(),
+            asked: HashMap::new(),
             forms: Vec::new(),
             form_index: HashMap::new(),
             differences: HashMap::new(),
@@ -124,6 +128,7 @@ impl<'p> Machine<'p> {
     pub(crate) fn any_path(&mut self, state: usize, mut path: impl FnMut(&mut Self) -> ControlFlow<()>) -> bool {
         self.program.states.write(state, &mut self.levels);
         self.choices.clear();
+        self.asked.clear();
         self.gave_up = false;
         for _ in 0..MAX_PATHS {
             self.compared.clear();
@@ -170,6 +175,7 @@ impl<'p> Machine<'p> {
                 choice.rest.0 &= !(1 << next);
                 return true;
             }
+            self.asked.remove(&choice.question);
             self.choices.pop();
         }
         false
@@ -177,12 +183,18 @@ impl<'p> Machine<'p> {
 
     /// The answer on this path; a new question is first answered with the lowest of `possible`.
     fn answer(&mut self, question: Question, possible: LevelSet, compared: Option<(ExprId, ExprId, bool)>) -> u8 {
-        if let Some(choice) = self.choices.iter().find(|choice| choice.question == question) {
-            return choice.answer;
+        if let Some(known) = self.known(question) {
+            return known;
         }
         let answer = possible.0.trailing_zeros() as u8;
+        self.asked.insert(question, self.choices.len());
         self.choices.push(Choice { question, answer, rest: LevelSet(possible.0 & !(1 << answer)), compared });
         answer
+    }
+
+    /// The answer on this path, if the question was asked.
+    fn known(&self, question: Question) -> Option<u8> {
+        self.asked.get(&question).map(|place| self.choices[*place].answer)
     }
 
     fn level(&mut self, input: InputId, view: View<'_>) -> u8 {
@@ -256,8 +268,7 @@ impl<'p> Machine<'p> {
             Difference::Form { number, negative } => (number, negative),
         };
         let question = Question::Sign(number);
-        let known = self.choices.iter().find(|choice| choice.question == question).map(|choice| choice.answer);
-        let answer = match known {
+        let answer = match self.known(question) {
             Some(answer) => answer,
             None => {
                 let possible = self.possible_signs(number);
@@ -288,13 +299,32 @@ impl<'p> Machine<'p> {
         difference
     }
 
+    /// The answers so far about signs, without those that follow from others of forms that differ in their constant
+    /// only: of the least such form that is positive, and of the greatest that is negative.
+    fn tightest(&self) -> Vec<(usize, u8)> {
+        let mut ends: HashMap<(&BTreeMap<Term, Rational>, u8), usize> = HashMap::new();
+        for choice in &self.choices {
+            let Question::Sign(form) = choice.question else { continue };
+            let constant = |form: usize| self.forms[form].constant;
+            let known = ends.entry((&self.forms[form].terms, choice.answer)).or_insert(form);
+            let tighter = match Sign::ALL[usize::from(choice.answer)] {
+                Sign::Positive => constant(form) < constant(*known),
+                Sign::Negative => constant(form) > constant(*known),
+                Sign::Zero => false,
+            };
+            if tighter {
+                *known = form;
+            }
+        }
+        let mut signs: Vec<(usize, u8)> = ends.into_iter().map(|((_, sign), form)| (form, sign)).collect();
+        signs.sort_unstable();
+        signs
+    }
+
     /// The signs that a form can have, given the answers so far.
     fn possible_signs(&mut self, form: usize) -> LevelSet {
-        let signs = self.choices.iter().filter_map(|choice| match choice.question {
-            Question::Sign(form) => Some((form, choice.answer)),
-            Question::Level(_) | Question::Compare(..) => None,
-        });
-        let mut key: Vec<(usize, u8)> = signs.chain([(form, 0)]).collect();
+        let mut key = self.tightest();
+        key.push((form, 0));
         if let Some(known) = self.possible.get(&key) {
             return *known;
         }
@@ -303,7 +333,7 @@ impl<'p> Machine<'p> {
         for sign in 0..Sign::ALL.len() as u8 {
             key[last].1 = sign;
             let signs = key.iter().map(|(form, sign)| (&self.forms[*form], Sign::ALL[usize::from(*sign)]));
-            if region::can_hold(self.program, signs) {
+            if region::can_hold(self.program, signs, &mut 0) {
                 possible.0 |= 1 << sign;
             }
         }

@@ -13,18 +13,20 @@
 //!   have the same normal form over the reals (then the difference in `f32` is
 //!   bounded).
 //!
-//! Comparisons that look different are treated as independent, which can refuse a
-//! right plan but never accept a wrong one.
+//! Comparisons of the same numbers, and of one number with several constants, answer each other where one
+//! follows from others ([`Comparisons`](crate::program::comparisons::Comparisons)). Others that look different are treated as independent, which can
+//! refuse a right plan but never accept a wrong one.
 
 use std::collections::HashMap;
 
+use super::oracle::{Choice, Oracle, Question};
 use super::report::{Counterexample, MAX_PATHS, MAX_PATHS_OF_STATE, Proof, Refusal};
 use super::{rounding, route};
 use crate::plan::{Leaf, Plan, Step, StepId};
 use crate::program::claims::{Candidates, Places};
 use crate::program::normal::Normaliser;
 use crate::program::print::Printer;
-use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Program, Value};
+use crate::program::{Comparison, Cond, CondId, ExprId, InputId, InputSet, Node, Pool, Value};
 
 /// The fault of a lookup.
 const NO_WAY: &str = "the plan's lookup has no way for this state";
@@ -39,67 +41,6 @@ pub(super) fn prove(plan: &Plan<'_>, states: &[usize]) -> Result<Proof, Refusal>
         prover.state(*state)?;
     }
     Ok(prover.proof)
-}
-
-/// A fact that a state leaves open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Question {
-    Level(InputId),
-    Compare(Comparison, ExprId, ExprId),
-}
-
-/// Answers questions, the same one always the same way, until told to advance.
-#[derive(Default)]
-struct Oracle {
-    /// Level by input; fetched inputs are set when first asked.
-    levels: Vec<u8>,
-    /// Questions asked so far, with the current answer and the number of answers.
-    choices: Vec<(Question, u8, u8)>,
-    /// The place of each question among them.
-    asked: HashMap<Question, usize>,
-    /// Questions answered in this state so far.
-    answered: usize,
-}
-
-impl Oracle {
-    fn new(program: &Program) -> Self {
-        Self { levels: vec![0; program.inputs.len()], ..Self::default() }
-    }
-
-    fn answer(&mut self, question: Question, count: u8) -> u8 {
-        self.answered += 1;
-        if let Some(answer) = self.known(question) {
-            return answer;
-        }
-        self.asked.insert(question, self.choices.len());
-        self.choices.push((question, 0, count));
-        0
-    }
-
-    /// The answer on this path, if the question was asked.
-    fn known(&self, question: Question) -> Option<u8> {
-        self.asked.get(&question).map(|place| self.choices[*place].1)
-    }
-
-    /// Forgets all paths.
-    fn restart(&mut self) {
-        self.choices.clear();
-        self.asked.clear();
-        self.answered = 0;
-    }
-
-    /// Moves on to the next sequence of answers; false if that was the last.
-    fn advance(&mut self) -> bool {
-        while let Some((question, answer, count)) = self.choices.last_mut() {
-            *answer += 1;
-            if *answer < *count {
-                return true;
-            }
-            self.asked.remove(question);
-            self.choices.pop();
-        }
-        false
-    }
 }
 
 /// Proves a plan state by state.
@@ -166,7 +107,7 @@ impl<'a, 'p> Prover<'a, 'p> {
         self.oracle.restart();
         loop {
             self.path(state)?;
-            if !self.oracle.advance() {
+            if !self.oracle.advance(&self.pool) {
                 return Ok(());
             }
             let paths = self.proof.paths;
@@ -265,7 +206,7 @@ impl<'a, 'p> Prover<'a, 'p> {
             state.push(format!("{} = {}", declared.name, declared.show(Value::Level(level))));
         }
         let printer = Printer { pool: &self.pool, inputs: &program.inputs };
-        for (question, answer, _) in &self.oracle.choices {
+        for Choice { question, answer, .. } in &self.oracle.choices {
             state.push(match question {
                 Question::Level(input) => {
                     let declared = &program.inputs[input.index()];
@@ -409,7 +350,7 @@ impl<'a, 'p> Prover<'a, 'p> {
                 let compared = self.pool.recompare(*op, a, b);
                 match self.pool.truth(compared) {
                     Some(value) => value,
-                    None => self.oracle.answer(Question::Compare(*op, a, b), 2) == 0,
+                    None => self.oracle.compare(&self.pool, *op, a, b),
                 }
             }
             Cond::Not(a) => !self.holds(*a, fetched),
@@ -468,7 +409,7 @@ impl<'a, 'p> Prover<'a, 'p> {
         match self.plan.pool.cond(condition) {
             Cond::Const(value) => Some(*value),
             Cond::Level(input, levels) => Some(levels.contains(self.oracle.levels[input.index()])),
-            Cond::Compare(op, a, b) => self.oracle.known(Question::Compare(*op, *a, *b)).map(|answer| answer == 0),
+            Cond::Compare(op, a, b) => self.oracle.compared(&self.pool, *op, *a, *b),
             Cond::Not(a) => self.decides(*a).map(|value| !value),
             Cond::And(parts) => match parts.iter().map(|part| self.decides(*part)).find(|d| *d != Some(true)) {
                 None => Some(true),

@@ -7,12 +7,14 @@
 //!
 //! Of the planner this knows the graph alone (`plan::graph`, with its key layout and coefficients):
 //! whatever a shape does, it is judged by the steps that come out. What planner and prover both use is
-//! `program::{claims, reachable, symbolic, turn}`, each tested against plain enumeration, and `program::settle`.
+//! `program::{claims, comparisons, reachable, symbolic, turn}`, each tested against plain enumeration, and
+//! `program::settle`.
 
 // A new operation, step or target must be thought of wherever one is told from another.
 #![deny(clippy::wildcard_enum_match_arm)]
 
 mod exact;
+mod oracle;
 mod real;
 mod report;
 mod rounding;

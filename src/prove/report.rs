@@ -114,7 +114,7 @@ impl Refusal {
                 let message = format!("the plan `{shape}` of `{}` has too many paths to be proved", program.name);
                 let diagnostic = Diagnostic::error(codes::PROOF_TOO_LONG, message)
                     .help(format!(
-                        "a state may have {MAX_PATHS_OF_STATE} paths, and all states {MAX_PATHS} more than one each, fewer where they are long; each comparison of numbers and each fetch multiplies them"
+                        "a state may have {MAX_PATHS_OF_STATE} paths, and all states {MAX_PATHS} more than one each, fewer where they are long; each comparison of other numbers and each fetch multiplies them"
                     ))
                     .help(format!("the limit was met in the state {}", state.join(", ")))
                     .help("split cases with many comparisons or choices, or make a comparison an input of the table");

@@ -146,7 +146,7 @@ fn of_function(function: &Function) -> Vec<&Expr> {
 
 fn of_case(case: &Case) -> Vec<&Expr> {
     match &case.body {
-        CaseBody::Rows { when, lines } => {
+        CaseBody::Rows { when, lines, .. } => {
             let lines = lines.iter().flat_map(|line| line.condition.iter().chain([&line.value]));
             lines.chain([when]).collect()
         }

@@ -241,6 +241,8 @@ pub struct Allow {
     pub span: Span,
     /// The code of the finding.
     pub code: Spanned<String>,
+    /// The things that the finding may be about; `None` for anything.
+    pub with: Option<Vec<Spanned<String>>>,
     /// Why it stays.
     pub reason: String,
 }

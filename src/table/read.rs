@@ -152,6 +152,8 @@ enum ContinuityRon<'a> {
 struct AllowRon<'a> {
     #[serde(borrow)]
     code: Raw<'a>,
+    #[serde(default)]
+    with: Option<Vec<Raw<'a>>>,
     reason: String,
 }
 
@@ -563,10 +565,12 @@ impl<'a> Reader<'a> {
         Ok(Continuity { name: self.word(name)?, kind, doc })
     }
 
-    /// `(code: "U0508", reason: "the text orders them so")`
+    /// `(code: "U0508", with: ["lines 1 and 2"], reason: "the text orders them so")`
     fn allow(&self, raw: Raw<'a>) -> Result<Allow> {
         let ron: AllowRon<'a> = self.get(raw)?;
-        let allow = Allow { span: self.span(raw), code: self.spanned(ron.code)?, reason: ron.reason };
+        let with = ron.with.map(|with| with.into_iter().map(|thing| self.spanned(thing)).collect::<Result<_>>());
+        let code = self.spanned(ron.code)?;
+        let allow = Allow { span: self.span(raw), code, with: with.transpose()?, reason: ron.reason };
         if allow.reason.trim().is_empty() {
             return Err(Diagnostic::error(codes::STRUCTURE, "`allow` without a reason")
                 .at(allow.span, "the reason is empty")

@@ -36,14 +36,18 @@ const TABLE: &str = r#"Table(
 const NOTES: &str = "\
 demo.ron:19:28: note[U0509]: case 1 must come before case 2: they hold together and differ
  = cases 1 and 2 hold at side=left,far=true,x=0.4052734375,seen=true
+ = if it is understood and stays: allow: [(code: \"U0509\", with: [\"case 2\"], reason: \"...\")]
 demo.ron:20:47: note[U0509]: case 3 must come before case 2: they hold together and differ
  = cases 3 and 2 hold at side=right,far=true,x=0.4052734375,seen=true
+ = if it is understood and stays: allow: [(code: \"U0509\", with: [\"case 2\"], reason: \"...\")]
 demo.ron:4:17: note[U0503]: no case claims 1 of the 6 states; they get the default
  = these are the states with side == none && !far
  = to claim them: Case(id: 4, when: \"side == none && !far\", value: ...)
+ = if it is understood and stays: allow: [(code: \"U0503\", with: [\"1 state\"], reason: \"...\")]
 demo.ron:4:17: note[U0503]: no case claims `side != none && !far && x >= 0.5`, or `side != none && !seen && x >= 0.5`; the default decides there
  = for instance side=left,far=false,x=0.71484375,seen=false
  = to claim them: Case(id: 4, when: Any([\"side != none && !far && x >= 0.5\", \"side != none && !seen && x >= 0.5\"]), value: ...)
+ = if it is understood and stays: allow: [(code: \"U0503\", with: [\"side != none && !far && x >= 0.5\", \"side != none && !seen && x >= 0.5\"], reason: \"...\")]
 demo.ron:20:47: note[U0521]: cases 1 and 3 could be one
  = they give the same, and together their guards say `side != none && x < 0.5`
 ";

@@ -60,9 +60,7 @@ fn all_numbers(program: &Program) -> InputSet {
 fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
     let ContinuityKind::Border(when, free) = &continuity.kind else { return Vec::new() };
     let Some((wide, other)) = doubled(program, free) else {
-        let message = format!("the border `{}` was not looked at", continuity.map.name);
-        let note = Diagnostic::note(codes::NOT_ANALYSED, message).at(continuity.map.span, "");
-        return vec![note.help("the table has too many inputs; list fewer under `free`")];
+        return vec![left_out(continuity, "the table has too many inputs; list fewer under `free`")];
     };
     let mut study = Study::new(&wide);
     let (mut levels, mut numbers) = (continuity.map.levels.clone(), continuity.map.numbers.clone());
@@ -84,9 +82,18 @@ fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
             continue;
         }
         for image in &images {
+            if study.space.is_too_large() {
+                break;
+            }
             let both = study.space.sets.and(here, image.set);
             jumps.extend(jump(&mut study, both, &piece, image));
         }
+    }
+    if study.space.is_too_large() {
+        return vec![left_out(
+            continuity,
+            "its sides take more work than the limit; split the table, or list fewer under `free`",
+        )];
     }
     // Inputs of the other side are told by comparing with this one.
     let map = Symmetry { levels, numbers, ..continuity.map.clone() };
@@ -120,7 +127,20 @@ fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
         let there = words::at(program, &shorten(there.witness(&wide, &read)), numbers)?;
         Some((here, Some(there)))
     };
-    report(&mut study, continuity, jumps, &tell)
+    let found = report(&mut study, continuity, jumps, &tell);
+    match study.space.is_too_large() {
+        true => vec![left_out(
+            continuity,
+            "its jumps take more work than the limit; split the table, or list fewer under `free`",
+        )],
+        false => found,
+    }
+}
+
+/// The note that a border was not looked at.
+fn left_out(continuity: &Continuity, help: &str) -> Diagnostic {
+    let message = format!("the border `{}` was not looked at", continuity.map.name);
+    Diagnostic::note(codes::NOT_ANALYSED, message).at(continuity.map.span, "").help(help)
 }
 
 /// The program with one more input for each that is free on the other side.
@@ -155,6 +175,9 @@ fn switches(study: &mut Study<'_>, inputs: &[InputId]) -> Vec<Jump> {
                     continue;
                 }
                 for other in study.pieces.clone() {
+                    if study.space.is_too_large() {
+                        return jumps;
+                    }
                     // The line belongs to one side; from the other, look across it.
                     let there = study.space.sets.fix(other.set, digit, if side == 0 { 2 } else { 1 });
                     let both = study.space.sets.and(beside, there);
@@ -224,9 +247,15 @@ type Tell<'a> = &'a dyn Fn(&mut Space<'_>, Set) -> Option<(String, Option<String
 fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell: Tell<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut largest: BTreeMap<Pair, (f64, Set, Sides)> = BTreeMap::new();
+    let mut all: BTreeMap<Pair, BTreeMap<Sides, f64>> = BTreeMap::new();
     for jump in &jumps {
+        if study.space.is_too_large() {
+            return Vec::new();
+        }
         let (size, set) = size(study, jump);
         let (a, b) = (jump.sides[0].0, jump.sides[1].0);
+        let of_lines = all.entry((a.min(b), a.max(b))).or_default().entry(jump.sides).or_insert(size);
+        *of_lines = of_lines.max(size);
         let entry = largest.entry((a.min(b), a.max(b))).or_insert((size, set, jump.sides));
         if size > entry.0 {
             *entry = (size, set, jump.sides);
@@ -244,7 +273,12 @@ fn report(study: &mut Study<'_>, continuity: &Continuity, jumps: Vec<Jump>, tell
             _ => format!("between {} and {}", words::cases(program, &[a]), words::cases(program, &[b])),
         };
         let message = format!("the value jumps{far} {between} across `{}`", continuity.map.name);
-        let mut warning = Diagnostic::warning(codes::JUMP, message);
+        let about = all[&(a, b)].iter().map(|([here, there], size)| {
+            let (here, there) = (words::named(program, *here), words::named(program, *there));
+            let far = if numbers { format!(" by {}", words::short(*size)) } else { String::new() };
+            format!("{here} to {there}{far}")
+        });
+        let mut warning = Diagnostic::warning(codes::JUMP, message).about([continuity.map.name.clone()]).about(about);
         for (row, line) in sides {
             let span = match (row.map(|row| &program.rows[row]), line) {
                 (Some(row), Some(line)) => row.lines[line].span,

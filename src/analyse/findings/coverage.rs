@@ -96,7 +96,7 @@ fn dead(study: &mut Study<'_>) -> Vec<Dead> {
 fn covering(study: &mut Study<'_>, row: usize, within: Set) -> Vec<usize> {
     let guard = study.space.sets.and(study.rows.guards[row], within);
     let mut found = Vec::new();
-    let earlier: Vec<usize> = study.nearby.of(row).take_while(|other| *other < row).collect();
+    let earlier: Vec<usize> = study.rows.nearby.of(row).take_while(|other| *other < row).collect();
     for earlier in earlier {
         let taken = study.rows.taken[earlier];
         if study.space.sets.meets(guard, taken) {
@@ -250,9 +250,10 @@ fn uncovered(study: &mut Study<'_>, unclaimed: Set) -> Diagnostic {
             note.help(format!("these are the states with {}, and further ones", some.join(", or ")))
         }
     };
+    let note = note.about([words::states(count)]);
     let note = match program.assumptions.is_empty() {
         true => note,
-        false => note.help(format!("the assumptions admit {admitted} of them")),
+        false => note.help(format!("the assumptions admit {admitted} of them")).about([format!("{admitted} admitted")]),
     };
     note.help(regions::row(program, claim.as_deref()))
 }

@@ -58,6 +58,7 @@ fn no_line(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic> 
                 None => format!("in {}", words::states(count)),
             })
             .help(format!("where {}", shown.join(", or ")))
+            .about(shown.into_iter().chain([words::states(count)]))
             .help("add a line for this, or a last line without a condition"),
     )
 }
@@ -115,7 +116,8 @@ fn crossing(study: &mut Study<'_>, row: usize, taken: Set) -> Option<Diagnostic>
             pairs[1..].iter().map(|(first, second, _)| format!("{} with {}", first + 1, second + 1)).collect();
         warning = warning.help(format!("also lines {}", words::list(&others)));
     }
-    Some(warning.help("make the conditions exclude each other, or acknowledge that the order decides"))
+    let about = pairs.iter().map(|(first, second, _)| format!("lines {} and {}", first + 1, second + 1));
+    Some(warning.about(about).help("make the conditions exclude each other, or acknowledge that the order decides"))
 }
 
 /// The part of a set in which the values of two lines differ.
@@ -170,11 +172,13 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
     let holds = study.space.sets.and(condition, study.rows.taken[row]);
     let holds = if study.space.is_void(holds) { holds } else { study.space.sets.and(holds, study.assumed) };
     let message = format!("line {} of case {} never counts", number + 1, case.id);
-    let warning = Diagnostic::warning(codes::DEAD_LINE, message);
+    let warning = Diagnostic::warning(codes::DEAD_LINE, message).about([format!("line {}", number + 1)]);
     if !study.space.is_void(counts) {
-        let blamed: Vec<String> = study.blame(counts).into_iter().map(|name| format!("`{name}`")).collect();
+        let blamed = study.blame(counts);
+        let quoted: Vec<String> = blamed.iter().map(|name| format!("`{name}`")).collect();
         return warning
-            .at(line.span, format!("{} rules this out", words::list(&blamed)))
+            .at(line.span, format!("{} rules this out", words::list(&quoted)))
+            .about(blamed)
             .help("mend its condition or the assumption, or remove the line");
     }
     if study.space.is_void(holds) {

@@ -10,6 +10,7 @@ pub(crate) mod guards;
 pub(crate) mod lines;
 pub(crate) mod numbers;
 pub(crate) mod overlap;
+pub(crate) mod settled;
 #[cfg(feature = "precise")]
 pub(crate) mod singular;
 pub(crate) mod style;
@@ -47,6 +48,7 @@ pub(super) const ALL: &[Analysis] = &[
     coverage::ANALYSIS,
     coverage::IN_FUNCTIONS,
     lines::ANALYSIS,
+    settled::ANALYSIS,
     symmetry::ANALYSIS,
     continuity::ANALYSIS,
     numbers::ANALYSIS,
@@ -60,7 +62,7 @@ mod tests {
     use crate::diag::codes;
 
     /// Codes that no analysis finds: `analyse` itself reports them.
-    const OTHERS: [Code; 2] = [codes::NOT_ANALYSED, codes::UNUSED_ALLOW];
+    const OTHERS: [Code; 3] = [codes::NOT_ANALYSED, codes::UNUSED_ALLOW, codes::WIDE_ALLOW];
 
     #[test]
     #[cfg(feature = "precise")]

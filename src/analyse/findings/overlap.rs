@@ -180,15 +180,22 @@ fn order_matters(study: &mut Study<'_>, first: usize, later: &[usize], suggest: 
     if let Some(place) = study.space.witness(different).and_then(|found| words::at(program, &found, relevant)) {
         note = note.help(format!("cases {} and {} hold at {place}", case.id, program.rows[later[0]].id));
     }
+    let ids = later.iter().map(|second| program.rows[*second].id);
     if !suggest {
-        return note;
+        return note.about(ids.map(|id| format!("case {id}")));
     }
     let mut extra = Vec::new();
-    for second in later {
-        if let Some(condition) = disjoint(study, *second) {
-            extra.push(format!("{}: `{condition}`", program.rows[*second].id));
+    let mut about = Vec::new();
+    for (second, id) in later.iter().zip(ids) {
+        match disjoint(study, *second) {
+            Some(condition) => {
+                extra.push(format!("{id}: `{condition}`"));
+                about.push(format!("case {id} but for {condition}"));
+            }
+            None => about.push(format!("case {id}")),
         }
     }
+    let note = note.about(about);
     match extra.is_empty() {
         true => note,
         false => note.help(format!("the order would not matter with these further conditions: {}", extra.join(", "))),
@@ -280,6 +287,7 @@ fn contradiction(study: &mut Study<'_>, first: usize, second: usize) -> Option<D
         .at(first.guard_span, format!("the guard of case {}", first.id))
         .at(program.hit_policy_span, "but at most one case may decide")
         .help(states)
+        .about([format!("case {}", first.id), words::states(overlap.states_different)])
         .help("make the guards exclude each other, or say `hit_policy: First`");
     Some(finding)
 }

@@ -1,5 +1,5 @@
-//! U0520 to U0522: style: constants that no `f32` equals, cases that could be
-//! one, names that generated code has to change.
+//! U0520 to U0523: style: constants that no `f32` equals, cases that could be
+//! one, names that generated code has to change, operands that are written twice.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -11,7 +11,7 @@ use crate::program::{Comparison, Cond, CondId, ExprId, LevelKind, LevelSet, Prog
 
 /// The codes that are found here, and how.
 pub(in crate::analyse) const ANALYSIS: Analysis =
-    Analysis { codes: &[codes::INEXACT, codes::MERGEABLE, codes::RENAMED], run: Run::Sets(findings) };
+    Analysis { codes: &[codes::INEXACT, codes::MERGEABLE, codes::RENAMED, codes::REPEATED], run: Run::Sets(findings) };
 
 /// Everything about style.
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
@@ -19,7 +19,19 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found.extend(inexact(study.program));
     found.extend(beside_integers(study.program));
     found.extend(renamed(study.program));
+    found.extend(repeated(study.program));
     found
+}
+
+/// Operands that stand twice in one chain of `&&` or `||`: one of them is mostly meant to be another.
+fn repeated(program: &Program) -> Vec<Diagnostic> {
+    let finding = |(second, first): &(Span, Span)| {
+        Diagnostic::warning(codes::REPEATED, "a condition asks for the same thing twice")
+            .at(*second, "here again")
+            .at(*first, "asked for before")
+            .help("remove one, or look for what was meant")
+    };
+    program.written.repeated.iter().map(finding).collect()
 }
 
 /// Levels of some digits, as a guard that is nothing else.
@@ -51,7 +63,7 @@ fn mergeable(study: &mut Study<'_>) -> Vec<Diagnostic> {
         }
         earlier.sort_unstable_by_key(|(first, ..)| *first);
         let free = |(first, ..): &&(usize, usize, LevelSet)| {
-            let mut between = study.nearby.of(number).filter(|row| (first + 1..number).contains(row));
+            let mut between = study.rows.nearby.of(number).filter(|row| (first + 1..number).contains(row));
             !between.any(|row| study.space.sets.meets(study.rows.guards[row], guard))
         };
         let Some((first, place, levels)) = earlier.iter().find(free).copied() else { continue };
@@ -179,6 +191,32 @@ fn renamed(program: &Program) -> Vec<Diagnostic> {
 #[cfg(test)]
 mod tests {
     use crate::analyse::found;
+
+    #[test]
+    fn what_is_asked_twice_is_found() {
+        let twice = |guard: &str| {
+            let found = found(&format!(
+                r#"Table(language: 1, name: "t", hit_policy: First,
+                    inputs: {{"a": Bool(), "b": Bool(), "s": Int(from: 0, to: 3), "x": Range(from: 0, to: 1)}},
+                    names: {{"n": "a && s == 1"}},
+                    output: Number(),
+                    cases: [Case(id: 1, when: {guard}, value: "x")],
+                    default: "if n || b {{ 0 }} else {{ 1 }}")"#
+            ));
+            found.iter().filter(|message| message.starts_with("U0523")).count()
+        };
+        for guard in
+            [r#""a && b && a""#, r#""s == 1 || b || x < 0.5 || s == 1""#, r#""!(b && (s in {1, 2} && s in {1, 2}))""#]
+        {
+            assert_eq!(twice(guard), 1, "{guard}");
+        }
+        // The same value of different inputs, and what a name stands for.
+        for guard in
+            [r#"{"a": true, "b": true}"#, r#""n && a""#, r#""a && b || a && s == 1""#, r#""x < 0.5 && x < 0.75""#]
+        {
+            assert_eq!(twice(guard), 0, "{guard}");
+        }
+    }
 
     #[test]
     fn style_is_noted() {

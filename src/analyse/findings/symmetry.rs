@@ -6,7 +6,7 @@
 //! Symmetries that leave the result alone are asked first; only if they are
 //! undecided do those that change it (light and shadow exchanged) vote too.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Analysis, Run};
 use crate::analyse::sets::Set;
@@ -35,6 +35,16 @@ struct Odd {
     point: Point,
     votes: (usize, usize),
     along: Vec<usize>,
+    /// The lines that most images follow.
+    against: BTreeSet<Place>,
+}
+
+/// Cases that contradict each other undecidedly.
+struct Torn {
+    point: Point,
+    along: Vec<usize>,
+    /// The lines that do so, with what they give.
+    lines: BTreeMap<Place, BTreeSet<String>>,
 }
 
 /// Rows; `None` is the default.
@@ -51,7 +61,7 @@ pub(in crate::analyse) const ANALYSIS: Analysis = Analysis {
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut odd: BTreeMap<Place, Odd> = BTreeMap::new();
-    let mut torn: BTreeMap<(Rows, Rows), (Point, Vec<usize>)> = BTreeMap::new();
+    let mut torn: BTreeMap<(Rows, Rows), Torn> = BTreeMap::new();
     // By the symmetry and the first of the two rows, in the order written.
     let mut assumed: BTreeMap<(Option<usize>, usize), Vec<Contradiction>> = BTreeMap::new();
     let all: Vec<usize> = (0..program.symmetries.len()).collect();
@@ -109,11 +119,13 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 for member in orbit.camps[1..].iter().flatten() {
                     let member = &orbit.members[*member];
                     let place = (member.outcome.row, member.outcome.line);
-                    odd.entry(place).or_insert_with(|| Odd {
+                    let odd = odd.entry(place).or_insert_with(|| Odd {
                         point: member.point.clone(),
                         votes,
                         along: along.clone(),
+                        against: BTreeSet::new(),
                     });
+                    odd.against.extend(orbit.places(0));
                 }
                 continue;
             }
@@ -127,15 +139,21 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 rows
             };
             let key = (rows(0).min(rows(1)), rows(0).max(rows(1)));
-            torn.entry(key).or_insert_with(|| (start, along.clone()));
+            let own = &orbit.members[0].outcome;
+            let place = (own.row, own.line);
+            let gives = given(study, place, &start);
+            let gives = words::simplified(&mut study.space, &gives);
+            let torn =
+                torn.entry(key).or_insert_with(|| Torn { point: start, along: along.clone(), lines: BTreeMap::new() });
+            torn.lines.entry(place).or_default().insert(gives);
         }
         found.extend(not_decided(program, number, open));
     }
     for (place, odd) in odd {
         found.extend(odd_one_out(study, place, &odd));
     }
-    for ((first, second), (point, along)) in &torn {
-        found.extend(undecided(study, (first, second), point, along));
+    for ((first, second), torn) in &torn {
+        found.extend(undecided(study, (first, second), torn));
     }
     found.extend(assumed.into_values().filter_map(|group| only_assumed(study, &group)));
     found
@@ -204,16 +222,6 @@ fn span(program: &Program, (row, line): Place, otherwise: Span) -> Span {
     }
 }
 
-/// A place as it is called in sentences.
-fn called(program: &Program, (row, line): Place) -> String {
-    match (row.map(|row| &program.rows[row]), line) {
-        (Some(row), Some(line)) if row.lines.len() > 1 => format!("line {} of case {}", line + 1, row.id),
-        (Some(row), Some(_)) => format!("case {}", row.id),
-        (Some(row), None) => format!("case {}, which has no line for this,", row.id),
-        (None, _) => "the default".to_owned(),
-    }
-}
-
 /// The symmetries that an argument rests on.
 fn by(program: &Program, along: &[usize]) -> String {
     let names: Vec<String> = along.iter().map(|number| format!("`{}`", program.symmetries[*number].name)).collect();
@@ -231,20 +239,25 @@ fn place_at(study: &Study<'_>, point: &Point, row: Option<usize>) -> String {
     words::at(program, &point.witness(program, &vec![true; program.inputs.len()]), read).unwrap_or_default()
 }
 
+/// The values at a place, with their selections decided at a point.
+fn given(study: &mut Study<'_>, (row, line): Place, point: &Point) -> Vec<ExprId> {
+    let program = study.program;
+    let values = match row.zip(line) {
+        Some((row, line)) => &program.rows[row].lines[line].values,
+        None => &program.default,
+    };
+    values.iter().map(|value| orbit::chosen(&mut study.space.pool, *value, point)).collect()
+}
+
 fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnostic> {
     let program = study.program;
     let orbit = Orbit::new(program, odd.point.clone(), &odd.along);
     let opponent = orbit.opponent()?;
     let (row, line) = place;
-    let wrong = match row.zip(line) {
-        Some((row, line)) => &program.rows[row].lines[line].values,
-        None => &program.default,
-    };
-    let wrong: Vec<ExprId> =
-        wrong.iter().map(|value| orbit::chosen(&mut study.space.pool, *value, &odd.point)).collect();
+    let wrong = given(study, place, &odd.point);
     let right = orbit::expected(study, opponent)?;
     let (was, should) = (written(study, &wrong), written(study, &right));
-    let name = called(program, place);
+    let name = words::called(program, place);
     let (most, total) = odd.votes;
     let message = format!("{name} is the odd one out: {most} of {total} images agree on another value");
     let other = (opponent.outcome.row, opponent.outcome.line);
@@ -252,8 +265,8 @@ fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnos
     let mut warning = Diagnostic::warning(codes::SYMMETRY_BROKEN, message)
         .at(span(program, place, symmetric), format!("here it gives {was}"));
     if other.0 != row || other.1 != line {
-        warning =
-            warning.at(span(program, other, symmetric), format!("{} says {should} for it", called(program, other)));
+        warning = warning
+            .at(span(program, other, symmetric), format!("{} says {should} for it", words::called(program, other)));
     }
     let own = &orbit.members[0];
     let what = format!(
@@ -263,6 +276,8 @@ fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnos
         by(program, &odd.along),
         short(program, &opponent.says)
     );
+    let against = odd.against.iter().map(|other| format!("against {}", words::named(program, *other)));
+    let warning = warning.about([format!("{was}, not {should}")]).about(against);
     Some(warning.help(what).help(match line {
         Some(_) => format!("to mend it, write `{should}` for `{was}` there"),
         None => format!("to mend it, add a line that gives `{should}` there"),
@@ -272,8 +287,7 @@ fn odd_one_out(study: &mut Study<'_>, place: Place, odd: &Odd) -> Option<Diagnos
 fn undecided(
     study: &mut Study<'_>,
     (first, second): (&[Option<usize>], &[Option<usize>]),
-    point: &Point,
-    along: &[usize],
+    Torn { point, along, lines }: &Torn,
 ) -> Option<Diagnostic> {
     let program = study.program;
     let orbit = Orbit::new(program, point.clone(), along);
@@ -293,21 +307,26 @@ fn undecided(
     let symmetric = program.symmetries[along[0]].span;
     let mut warning = Diagnostic::warning(codes::SYMMETRY_BROKEN, message).at(
         span(program, here, symmetric),
-        format!("{} gives {} here", called(program, here), short(program, &own.says)),
+        format!("{} gives {} here", words::called(program, here), short(program, &own.says)),
     );
     if there != here {
         warning = warning.at(
             span(program, there, symmetric),
             format!(
                 "{} says {} for the same, that is {should}",
-                called(program, there),
+                words::called(program, there),
                 short(program, &opponent.says)
             ),
         );
     }
     let at = place_at(study, point, here.0);
+    let about = lines.iter().map(|(place, gives)| {
+        let gives: Vec<&str> = gives.iter().map(String::as_str).collect();
+        format!("{} gives {}", words::named(program, *place), gives.join(" or "))
+    });
     Some(
         warning
+            .about(about)
             .help(format!("at {at}, under {}", by(program, along)))
             .help("as many images say the one as the other: mend one of them, or acknowledge that they differ"),
     )
@@ -355,6 +374,11 @@ fn only_assumed(study: &mut Study<'_>, group: &[Contradiction]) -> Option<Diagno
         true => "it takes the assumptions for the inputs and for their images".to_owned(),
         false => format!("it takes {}", words::list(&blamed)),
     };
+    let mut about: Vec<String> = others.iter().map(|other| words::cases(program, &[*other])).collect();
+    for contradiction in group {
+        about.extend(study.blame(contradiction.set).into_iter().map(str::to_owned));
+    }
+    let note = note.about([symmetry.name.clone()]).about(about);
     let witness = study.space.witness(contradiction.set)?;
     let differ = if witness.certain {
         let at = place_at(study, &Point::of(program, &witness), contradiction.rows.0);

@@ -5,6 +5,7 @@
 //! that is simple to describe is small, whatever the product is. The digits
 //! are tested in ascending order; a digit that does not matter is not tested.
 
+pub(crate) mod budget;
 pub(crate) mod nearby;
 pub(crate) mod space;
 pub(crate) mod study;
@@ -13,6 +14,7 @@ use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::program::LevelSet;
+use budget::Budget;
 
 /// A set in a [`Sets`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -46,6 +48,8 @@ pub(super) struct Sets {
     index: Vec<u32>,
     memo: Map<(Operation, Set, Set), Set>,
     full: bool,
+    /// The work that the analysis that asks may still do.
+    budget: Budget,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -97,6 +101,7 @@ impl Sets {
             index: vec![0; 1 << 10],
             memo: Map::default(),
             full: false,
+            budget: Budget::new(budget::STEPS),
         }
     }
 
@@ -114,6 +119,16 @@ impl Sets {
     /// Returns whether sets were given up for their size. Then no answer is worth anything.
     pub(super) fn is_full(&self) -> bool {
         self.full
+    }
+
+    /// Lets each analysis take so many steps.
+    pub(super) fn limit(&mut self, steps: u64) {
+        self.budget = Budget::new(steps);
+    }
+
+    /// The work that may still be done.
+    pub(super) fn budget(&self) -> &Budget {
+        &self.budget
     }
 
     /// The digit that a set tests first, and the rest of the set for each of its levels.
@@ -211,6 +226,9 @@ impl Sets {
     }
 
     fn apply(&mut self, operation: Operation, a: Set, b: Set) -> Set {
+        if !self.budget.spend(1) {
+            return Set::EMPTY;
+        }
         let decided = match (operation, a, b) {
             (Operation::And, Set::EMPTY, _) | (Operation::And, _, Set::EMPTY) => Some(Set::EMPTY),
             (Operation::And, Set::ALL, other) | (Operation::And, other, Set::ALL) => Some(other),
@@ -239,7 +257,9 @@ impl Sets {
             };
         }
         let result = self.node(digit as usize, &children[..count]);
-        self.memo.insert((operation, a, b), result);
+        if !self.budget.is_spent() {
+            self.memo.insert((operation, a, b), result);
+        }
         result
     }
 
@@ -253,6 +273,7 @@ impl Sets {
         match (a, b) {
             (Set::EMPTY, _) | (_, Set::EMPTY) => return false,
             (Set::ALL, _) | (_, Set::ALL) => return true,
+            _ if !self.budget.spend(1) => return false,
             _ => {}
         }
         let digit = self.first(a).min(self.first(b));

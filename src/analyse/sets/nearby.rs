@@ -5,8 +5,9 @@
 //! once, a word of them at a time: ten thousand rows are ten thousand short
 //! passes instead of fifty million looks.
 
-use super::{Set, Sets};
+use super::{Map, Set, Sets};
 use crate::program::LevelSet;
+use crate::program::region::Sign;
 
 /// The boxes of all guards.
 pub(in crate::analyse) struct Nearby {
@@ -16,7 +17,20 @@ pub(in crate::analyse) struct Nearby {
     rows: Vec<Vec<Vec<u64>>>,
     /// The rows that hold somewhere, as bits.
     all: Vec<u64>,
+    /// Numbers that are compared with constants.
+    numbers: Vec<Compared>,
 }
+
+/// A number that is compared with constants, and what guards leave of it.
+struct Compared {
+    /// For each row, the first and the last part of the number that its guard leaves.
+    spans: Vec<(usize, usize)>,
+    /// For each part, the rows whose guards leave it, as bits.
+    rows: Vec<Vec<u64>>,
+}
+
+/// Most parts that a number is divided into here.
+const MAX_PARTS: usize = 2048;
 
 impl Nearby {
     pub(in crate::analyse) fn new(sets: &Sets, guards: &[Set]) -> Self {
@@ -33,7 +47,42 @@ impl Nearby {
                 outside.iter().for_each(|level| rows[*digit][usize::from(level)][row / 64] &= !(1 << (row % 64)));
             }
         }
-        Self { hulls, rows, all }
+        Self { hulls, rows, all, numbers: Vec::new() }
+    }
+
+    /// The same, with what guards leave of numbers. `compared` gives, for each number, the digits that are
+    /// the signs of its differences from constants, with the constants ascending.
+    pub(super) fn with_numbers(mut self, compared: &[Vec<usize>]) -> Self {
+        for digits in compared {
+            // Between two constants, at one, and so on, from the lowest up; a few of them together.
+            let parts = 2 * digits.len() + 1;
+            let together = parts.div_ceil(MAX_PARTS);
+            let places: Map<usize, usize> =
+                digits.iter().enumerate().map(|(place, digit)| (*digit, 2 * place + 1)).collect();
+            let span = |hull: &[(usize, LevelSet)]| {
+                hull.iter().fold((0, parts - 1), |(from, to), (digit, signs)| {
+                    let Some(at) = places.get(digit) else { return (from, to) };
+                    let part = |sign: u8| match Sign::ALL[usize::from(sign)] {
+                        Sign::Positive => (at + 1, parts - 1),
+                        Sign::Zero => (*at, *at),
+                        Sign::Negative => (0, at - 1),
+                    };
+                    let (low, high) = signs.iter().map(part).fold((parts, 0), |(a, b), (c, d)| (a.min(c), b.max(d)));
+                    (from.max(low), to.min(high))
+                })
+            };
+            let spans = self.hulls.iter().map(|hull| {
+                let (from, to) = span(hull.as_deref().unwrap_or_default());
+                (from / together, to / together)
+            });
+            let spans: Vec<(usize, usize)> = spans.collect();
+            let mut rows = vec![vec![0; self.all.len()]; parts.div_ceil(together)];
+            for (row, (from, to)) in spans.iter().enumerate() {
+                (*from..=*to).for_each(|part| rows[part][row / 64] |= 1 << (row % 64));
+            }
+            self.numbers.push(Compared { spans, rows });
+        }
+        self
     }
 
     /// The rows whose boxes meet that of a row, itself included, in ascending order.
@@ -43,7 +92,15 @@ impl Nearby {
             let in_digit = |(digit, levels): &(usize, LevelSet)| {
                 levels.iter().fold(0, |rows, level| rows | self.rows[*digit][usize::from(level)][place])
             };
-            hull.map_or(0, |hull| hull.iter().fold(self.all[place], |rows, levels| rows & in_digit(levels)))
+            let boxes =
+                hull.map_or(0, |hull| hull.iter().fold(self.all[place], |rows, levels| rows & in_digit(levels)));
+            self.numbers.iter().fold(boxes, |rows, number| match rows {
+                0 => 0,
+                _ => {
+                    let (from, to) = number.spans[row];
+                    rows & (from..=to).fold(0, |all, part| all | number.rows[part][place])
+                }
+            })
         };
         let words = (0..self.all.len()).map(move |place| (place, word(place))).filter(|(_, word)| *word != 0);
         // The rows of a word are its bits, as the levels of a set are.

@@ -11,11 +11,12 @@
 //! A [`View`] says what the inputs mean: themselves, or their images under a
 //! symmetry, possibly of images again.
 
+mod narrowed;
 mod points;
 #[cfg(feature = "trial")]
 mod sample;
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use super::{Map, Set, Sets};
@@ -68,6 +69,9 @@ pub(in crate::analyse) struct Space<'p> {
     questions: Vec<Question>,
     forms: Vec<Affine>,
     form_digits: HashMap<Affine, usize>,
+    /// The number of the form without its constant, for each form.
+    numbers_of_forms: Vec<usize>,
+    numbers: HashMap<BTreeMap<Term, Rational>, usize>,
     opaque_digits: HashMap<(ExprId, ExprId), usize>,
     views: Vec<Images>,
     conditions: Map<(CondId, View), Set>,
@@ -103,6 +107,8 @@ impl<'p> Space<'p> {
             questions: Vec::new(),
             forms: Vec::new(),
             form_digits: HashMap::new(),
+            numbers_of_forms: Vec::new(),
+            numbers: HashMap::new(),
             opaque_digits: HashMap::new(),
             views: vec![Images { levels: HashMap::new(), numbers: HashMap::new(), inner: View::PLAIN }],
             conditions: Map::default(),
@@ -116,7 +122,13 @@ impl<'p> Space<'p> {
 
     /// Returns whether something was given up for its size. Then no answer is worth anything.
     pub(in crate::analyse) fn is_too_large(&self) -> bool {
-        self.too_large || self.sets.is_full()
+        self.too_large || self.sets.is_full() || self.sets.budget().is_spent()
+    }
+
+    /// Lets another analysis begin, whatever work the last one took.
+    pub(in crate::analyse) fn begin(&mut self) {
+        self.sets.budget().refill();
+        self.too_large = false;
     }
 
     /// The number of digits that belong to the states.
@@ -216,7 +228,9 @@ impl<'p> Space<'p> {
                 self.choose(c, a, b)
             }
         };
-        self.conditions.insert((condition, view), set);
+        if !self.is_too_large() {
+            self.conditions.insert((condition, view), set);
+        }
         set
     }
 
@@ -254,7 +268,9 @@ impl<'p> Space<'p> {
             return *known;
         }
         let set = self.less_anew(a, b);
-        self.less.insert((a, b), set);
+        if !self.is_too_large() {
+            self.less.insert((a, b), set);
+        }
         set
     }
 
@@ -359,6 +375,9 @@ impl<'p> Space<'p> {
             None => {
                 self.questions.push(Question::Sign(self.forms.len()));
                 self.forms.push(canonical.clone());
+                let next = self.numbers.len();
+                let number = *self.numbers.entry(canonical.terms.clone()).or_insert(next);
+                self.numbers_of_forms.push(number);
                 let digit = self.sets.digit(Sign::ALL.len());
                 self.form_digits.insert(canonical, digit);
                 digit
@@ -381,6 +400,20 @@ impl<'p> Space<'p> {
             hi = hi.plus(a.max(b))?;
         }
         Some((lo, hi))
+    }
+
+    /// For each number that several forms are about, the digits of these, the constants that they compare it with ascending.
+    pub(in crate::analyse) fn compared(&self) -> Vec<Vec<usize>> {
+        let mut compared = vec![Vec::new(); self.numbers.len()];
+        for (form, number) in self.numbers_of_forms.iter().enumerate() {
+            compared[*number].push(form);
+        }
+        compared.retain(|forms| forms.len() > 1);
+        for forms in &mut compared {
+            forms.sort_by_key(|form| -self.forms[*form].constant);
+            forms.iter_mut().for_each(|form| *form = self.form_digits[&self.forms[*form]]);
+        }
+        compared
     }
 
     fn opaque(&mut self, a: ExprId, b: ExprId) -> Set {
@@ -435,7 +468,9 @@ impl<'p> Space<'p> {
             }
         };
         let parts = Rc::new(self.merged(parts));
-        self.parts.insert((expr, view), parts.clone());
+        if !self.is_too_large() {
+            self.parts.insert((expr, view), parts.clone());
+        }
         parts
     }
 
@@ -444,7 +479,7 @@ impl<'p> Space<'p> {
         let mut result: Vec<(Set, Vec<ExprId>)> = vec![(Set::ALL, Vec::new())];
         for expr in list {
             let parts = self.parts(*expr, view);
-            if result.len() * parts.len() > MAX_PARTS {
+            if result.len() * parts.len() > MAX_PARTS || self.sets.budget().is_spent() {
                 self.too_large = true;
                 return Vec::new();
             }

@@ -1,6 +1,7 @@
 //! The start of all analyses of a program: its rows as sets.
 
 use super::Set;
+use super::budget::STEPS;
 use super::nearby::Nearby;
 use super::space::{Space, View};
 use crate::program::{ExprId, Program};
@@ -28,17 +29,23 @@ pub(in crate::analyse) struct Rows {
     pub(in crate::analyse) unclaimed: Set,
     /// The values of each row where its guard holds, taken or not.
     pub(in crate::analyse) own: Vec<Vec<Piece>>,
+    /// The guards that may hold together.
+    pub(in crate::analyse) nearby: Nearby,
 }
+
+/// Most earlier rows that are taken away from a row one by one; else all that come before it go together.
+const FEW: usize = 8;
 
 impl Rows {
     fn new(space: &mut Space<'_>, view: View) -> Self {
         let program = space.program;
-        let mut rows = Rows { guards: Vec::new(), taken: Vec::new(), unclaimed: Set::ALL, own: Vec::new() };
+        let guards: Vec<Set> = program.rows.iter().map(|row| space.condition(row.guard, view)).collect();
+        let nearby = Nearby::new(&space.sets, &guards).with_numbers(&space.compared());
+        let claimed = union(space, &guards);
+        let unclaimed = space.sets.not(claimed);
+        let mut rows = Rows { taken: taken(space, &guards, &nearby), guards, unclaimed, own: Vec::new(), nearby };
         for (number, row) in program.rows.iter().enumerate() {
-            let guard = space.condition(row.guard, view);
-            rows.guards.push(guard);
-            rows.taken.push(space.sets.and(guard, rows.unclaimed));
-            rows.unclaimed = space.sets.minus(rows.unclaimed, guard);
+            let guard = rows.guards[number];
             let mut pieces = Vec::new();
             let mut rest = guard;
             for (line, written) in row.lines.iter().enumerate() {
@@ -70,6 +77,38 @@ impl Rows {
     }
 }
 
+/// The union of some sets: by halves, as those of neighbouring constants have small ones.
+fn union(space: &mut Space<'_>, sets: &[Set]) -> Set {
+    match sets {
+        [] => Set::EMPTY,
+        [one] => *one,
+        several => {
+            let (first, second) = several.split_at(several.len() / 2);
+            let (first, second) = (union(space, first), union(space, second));
+            space.sets.or(first, second)
+        }
+    }
+}
+
+/// The set where each row is taken: its guard holds, and that of no earlier row does.
+fn taken(space: &mut Space<'_>, guards: &[Set], nearby: &Nearby) -> Vec<Set> {
+    // What some rows at the beginning claim together, and their number.
+    let (mut before, mut count) = (Set::EMPTY, 0);
+    let mut taken = Vec::with_capacity(guards.len());
+    for (row, guard) in guards.iter().enumerate() {
+        let earlier: Vec<usize> = nearby.of(row).take_while(|other| *other < row).take(FEW + 1).collect();
+        if earlier.len() <= FEW {
+            let rest = earlier.iter().fold(*guard, |rest, other| space.sets.minus(rest, guards[*other]));
+            taken.push(rest);
+            continue;
+        }
+        before = guards[count..row].iter().fold(before, |all, other| space.sets.or(all, *other));
+        count = row;
+        taken.push(space.sets.minus(*guard, before));
+    }
+    taken
+}
+
 fn split(
     space: &mut Space<'_>,
     view: View,
@@ -94,8 +133,6 @@ pub(in crate::analyse) struct Study<'p> {
     pub(in crate::analyse) program: &'p Program,
     pub(in crate::analyse) space: Space<'p>,
     pub(in crate::analyse) rows: Rows,
-    /// The guards that may hold together.
-    pub(in crate::analyse) nearby: Nearby,
     /// The values of the program, piece by piece, in the order of rows, the default last.
     pub(in crate::analyse) pieces: Vec<Piece>,
     /// The set where all assumptions hold.
@@ -104,12 +141,17 @@ pub(in crate::analyse) struct Study<'p> {
 
 impl<'p> Study<'p> {
     pub(in crate::analyse) fn new(program: &'p Program) -> Self {
+        Self::within(program, STEPS)
+    }
+
+    /// The same, with so many steps for this and for each analysis.
+    pub(in crate::analyse) fn within(program: &'p Program, steps: u64) -> Self {
         let mut space = Space::new(program);
+        space.sets.limit(steps);
         let rows = Rows::new(&mut space, View::PLAIN);
-        let nearby = Nearby::new(&space.sets, &rows.guards);
         let pieces = rows.pieces(&mut space, View::PLAIN);
         let assumed = assumed(&mut space, View::PLAIN);
-        Self { program, space, rows, nearby, pieces, assumed }
+        Self { program, space, rows, pieces, assumed }
     }
 
     /// The values of a row where it is taken; `None` is the default.
@@ -124,7 +166,7 @@ impl<'p> Study<'p> {
     pub(in crate::analyse) fn later(&self, row: usize) -> Vec<usize> {
         let guards = &self.rows.guards;
         let meets = |later: &usize| *later > row && self.space.sets.meets(guards[row], guards[*later]);
-        self.nearby.of(row).filter(meets).collect()
+        self.rows.nearby.of(row).filter(meets).collect()
     }
 
     /// The pieces of the program and its assumptions, seen through a view.

@@ -7,6 +7,8 @@
 //! test tells one bit at most) bounds what that may have missed. Equal parts of
 //! the tree become one.
 //!
+//! Where a number is compared with many constants, what the state leaves is found by a search among them.
+//!
 //! Fetches need no place in what is minimised. The state decides which inputs are
 //! fetched or which tests of fetched inputs follow, and in which order is part of
 //! the meaning: no tree over the state can save one, so their cost is the same in
@@ -20,6 +22,7 @@ use crate::plan::arms::Arms;
 use crate::plan::builder::{Builder, Result};
 use crate::plan::key::KeyLayout;
 use crate::plan::order::Certificate;
+use crate::plan::search::Search;
 use crate::plan::setting::Setting;
 use crate::plan::{Plan, Step, StepId};
 use crate::program::claims::decide;
@@ -32,7 +35,7 @@ const MAX_STATES: usize = 1 << 14;
 
 pub(super) static SHAPE: Definition = Definition {
     name: "tree",
-    summary: "a graph of tests on inputs with the least expected number of them",
+    summary: "a graph of tests on inputs with the least expected number of them, numbers searched for among constants",
     reads_buffer: false,
     needs_key: false,
     plan: tree,
@@ -50,7 +53,9 @@ fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let key = KeyLayout::new(program)?;
     let mut builder = Builder::new(program);
     let arms = Arms::new(&mut builder, setting)?;
-    let steps = arms.steps(&mut builder)?;
+    let mut search = Search::new();
+    let steps = arms.steps_by(&mut builder, |builder, rows, known| search.rows(builder, rows, known))?;
+    let searched = search.notes(&builder);
     let ways: Vec<StepId> = arms.of.iter().map(|arm| steps[usize::from(*arm)]).collect();
     let fetches = fetch_cost(&builder, setting, &ways);
     let mut planner = Planner {
@@ -71,6 +76,7 @@ fn tree<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let bound = if exact { cost } else { planner.entropy(&all) };
     let mut plan = builder.finish(setting, key, Vec::new(), root);
     plan.certificate = Some(Certificate { written: super::chain::written(setting)?, planned: cost, bound });
+    plan.notes.extend(searched);
     plan.notes.extend(fetches.map(|cost| format!("expected cost of fetches {cost:.3}, the same in every tree")));
     Ok(plan)
 }

@@ -41,7 +41,11 @@ impl<'t> Lowering<'t> {
         for input in inputs {
             self.take_name(&input.name, "an input", &mut taken, errors);
             if let Some(checked) = keep(self.input(input), errors) {
-                self.input_index.insert(&input.name.value, InputId::new(self.inputs.len()));
+                let id = InputId::new(self.inputs.len());
+                if let Domain::Continuous { lo, hi, .. } = checked.domain {
+                    self.pool.declare(id, (lo, hi));
+                }
+                self.input_index.insert(&input.name.value, id);
                 self.inputs.push(checked);
             }
         }

@@ -4,24 +4,28 @@ use std::collections::HashSet;
 
 use crate::diag::Spanned;
 use crate::program::Written;
-use crate::table::expr::{Expr, ExprKind, SumOver};
+use crate::table::expr::{BinaryOp, Expr, ExprKind, SumOver};
 use crate::table::{CaseBody, FunctionBody, Image, ResultMap, Table};
 
 /// Looks at all that is written in a table of cases.
 pub(super) fn written(table: &Table) -> Written {
     let (unused_names, unused_helpers) = (unused_names(table), unused_helpers(table));
     let mut written = Written { unused_names, unused_helpers, ..Written::default() };
+    let mut look = |expr: &Expr| {
+        inexact(expr, &mut written);
+        repeated(expr, &mut written);
+    };
     for case in &table.cases {
         if let CaseBody::Rows { when, lines, .. } = &case.body {
-            inexact(when, &mut written);
+            look(when);
             for line in lines {
-                inexact(&line.value, &mut written);
-                line.condition.iter().for_each(|condition| inexact(condition, &mut written));
+                look(&line.value);
+                line.condition.iter().for_each(&mut look);
             }
         }
     }
-    table.names.iter().for_each(|named| inexact(&named.value, &mut written));
-    inexact(&table.default, &mut written);
+    table.names.iter().for_each(|named| look(&named.value));
+    look(&table.default);
     written
 }
 
@@ -38,6 +42,45 @@ fn inexact(expr: &Expr, written: &mut Written) {
         written.inexact.push((number, expr.span));
     }
     expr.parts().into_iter().for_each(|part| inexact(part, written));
+}
+
+/// Most operands of a chain that are compared with each other.
+const MAX_OPERANDS: usize = 64;
+
+/// Finds operands of one chain of `&&` or `||` that are written alike.
+fn repeated(expr: &Expr, written: &mut Written) {
+    let ExprKind::Binary(op @ (BinaryOp::And | BinaryOp::Or), ..) = expr.kind else {
+        expr.parts().into_iter().for_each(|part| repeated(part, written));
+        return;
+    };
+    let mut operands: Vec<&Expr> = Vec::new();
+    let mut open = vec![expr];
+    while let Some(expr) = open.pop() {
+        match &expr.kind {
+            ExprKind::Binary(own, a, b) if *own == op => open.extend([&**b, &**a]),
+            _ => operands.push(expr),
+        }
+    }
+    for (place, operand) in operands.iter().enumerate().take(MAX_OPERANDS) {
+        if let Some(first) = operands[..place].iter().find(|first| alike(first, operand)) {
+            written.repeated.push((operand.span, first.span));
+        }
+    }
+    operands.into_iter().for_each(|operand| repeated(operand, written));
+}
+
+/// Returns whether two conditions are written alike, as far as conditions mostly go.
+fn alike(a: &Expr, b: &Expr) -> bool {
+    match (&a.kind, &b.kind) {
+        (ExprKind::Number(a), ExprKind::Number(b)) => a == b,
+        (ExprKind::Name(a), ExprKind::Name(b)) => a == b,
+        (ExprKind::Unary(op, a), ExprKind::Unary(other, b)) => op == other && alike(a, b),
+        (ExprKind::Binary(op, a, b), ExprKind::Binary(other, c, d)) => op == other && alike(a, c) && alike(b, d),
+        (ExprKind::In(a, some), ExprKind::In(b, others)) => {
+            alike(a, b) && some.iter().map(|level| &level.value).eq(others.iter().map(|level| &level.value))
+        }
+        _ => false,
+    }
 }
 
 /// Names and groups that no case, default, assumption or symmetry leads to.

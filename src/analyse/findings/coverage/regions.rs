@@ -67,7 +67,8 @@ pub(super) fn finding(space: &mut Space<'_>, unclaimed: Set, assumed: Set) -> Op
         Some(_) | None => "some numbers".to_owned(),
     };
     let message = format!("no case claims {region}; the default decides there");
-    let mut note = Diagnostic::note(codes::UNCOVERED, message).at(program.hit_policy_span, "");
+    let about = claim.clone().unwrap_or_else(|| vec!["some numbers".to_owned()]);
+    let mut note = Diagnostic::note(codes::UNCOVERED, message).at(program.hit_policy_span, "").about(about);
     if let Some(claim) = claim.as_ref().filter(|claim| claim.len() > 2) {
         note = note.help(format!("these are the inputs with {}", claim.join(", or ")));
     }

@@ -132,7 +132,8 @@ fn finding(study: &mut Study<'_>, choice: &Choice, idle: &Idle) -> Diagnostic {
     let asked = Printer { pool: &study.space.pool, inputs: &program.inputs }.cond(idle.condition);
     let message = format!("a part of the value of case {} never counts", case.id);
     let warning = Diagnostic::warning(codes::DEAD_LINE, message)
-        .at(choice.span, format!("where this is asked, `{asked}` never holds"));
+        .at(choice.span, format!("where this is asked, `{asked}` never holds"))
+        .about([asked]);
     let warning = match idle.never.is_empty() {
         true => warning.at(case.guard_span, "given this guard and the choices before"),
         false => {

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use super::narrowed::Narrowed;
 use super::{Question, Space, code};
 use crate::analyse::sets::Set;
 use crate::analyse::values::point::{Point, Witness};
@@ -45,7 +46,9 @@ impl Space<'_> {
             let children: Vec<Set> = children.into_iter().map(|child| self.prune(child)).collect();
             self.sets.node(digit, &children)
         };
-        self.pruned.insert(set, result);
+        if !self.is_too_large() {
+            self.pruned.insert(set, result);
+        }
         result
     }
 
@@ -83,17 +86,17 @@ impl Space<'_> {
     pub(super) fn signs(&mut self, set: Set) -> Option<Vec<(usize, u8)>> {
         let mut found = Vec::new();
         let mut steps = MAX_STEPS;
-        self.search(set, &mut found, &mut steps).then_some(found)
+        self.search(set, &mut found, &mut Narrowed::default(), &mut steps).then_some(found)
     }
 
-    fn search(&mut self, set: Set, found: &mut Vec<(usize, u8)>, steps: &mut usize) -> bool {
+    fn search(&mut self, set: Set, found: &mut Vec<(usize, u8)>, narrowed: &mut Narrowed, steps: &mut usize) -> bool {
         if set.is_empty() {
             return false;
         }
         *steps = steps.saturating_sub(1);
         let Some((digit, children)) = self.sets.test(set) else { return true };
         // Out of patience: what was not refuted is taken to be possible.
-        if *steps == 0 {
+        if *steps == 0 || !self.sets.budget().spend(1) {
             return true;
         }
         // Points on lines mean more than they seem to, so zero is tried last.
@@ -104,21 +107,28 @@ impl Space<'_> {
                 continue;
             }
             found.push((digit, level as u8));
-            if self.possible(found) && self.search(child, found, steps) {
+            let fits = narrowed.push(self, digit, level as u8) && self.possible(narrowed);
+            if fits && self.search(child, found, narrowed, steps) {
                 return true;
             }
+            narrowed.pop();
             found.pop();
         }
         false
     }
 
-    /// Returns whether some numbers have all these signs.
-    fn possible(&mut self, answers: &[(usize, u8)]) -> bool {
-        let signs = self.forms_of(answers);
+    /// Returns whether some numbers lie in all of the intervals that answers leave.
+    fn possible(&mut self, narrowed: &Narrowed) -> bool {
+        let signs = narrowed.signs(self);
+        if signs.is_empty() {
+            return true;
+        }
         if let Some(known) = self.possible.get(&signs) {
             return *known;
         }
-        let possible = region::can_hold(self.program, self.signed(&signs));
+        let mut work = 0;
+        let possible = region::can_hold(self.program, self.signed(&signs), &mut work);
+        self.sets.budget().spend(work);
         self.possible.insert(signs, possible);
         possible
     }
