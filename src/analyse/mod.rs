@@ -112,7 +112,8 @@ fn drop_duplicates(found: &mut Vec<Diagnostic>) {
     found.retain(|finding| {
         let is_in = |places: &[_]| place(finding).is_some_and(|place| places.contains(&place));
         let limit = finding.code == codes::NOT_A_NUMBER && divides(finding) && is_in(&limits);
-        !limit && !(finding.code == codes::SETTLED && is_in(&clamped))
+        let settled = finding.code == codes::SETTLED && is_in(&clamped);
+        !limit && !settled
     });
     // What was not analysed is said once of a case, however many of its lines and components it is true of.
     let mut said = std::collections::HashSet::new();

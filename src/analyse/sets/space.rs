@@ -325,7 +325,10 @@ impl<'p> Space<'p> {
     pub(in crate::analyse) fn different(&mut self, a: &[ExprId], b: &[ExprId]) -> Set {
         let [a, b] = [a, b].map(|values| {
             let mut values = values.to_vec();
-            self.program.output.sort(&mut values, &|value| self.pool.constant(*value));
+            // Some are asked for a part of a result.
+            if values.len() == self.program.output.size() {
+                self.program.output.sort(&mut values, &|value| self.pool.constant(*value));
+            }
             values
         });
         let mut result = Set::EMPTY;

@@ -142,7 +142,8 @@ impl<'t> Lowering<'t> {
         self.row_of(case, guard, lines, &maps, &element.env, element.under.iter().map(|n| (*n).to_owned()).collect())
     }
 
-    /// What tells rows apart: guard, conditions and values, without the order in which conditions are tested.
+    /// Guard, conditions and values, without the order in which conditions are tested: rows that differ in no more
+    /// are one.
     fn shape(&mut self, row: &Row) -> Vec<u32> {
         let mut known = HashMap::new();
         let mut shape = vec![self.sorted(row.guard, &mut known).index() as u32];

@@ -1,4 +1,4 @@
-//! What becomes of a result under a symmetry, component by component.
+//! The image of a result under a symmetry, component by component.
 //!
 //! A map is written for the kind of result that it changes: an expression in `value` for
 //! numbers, vectors and conditions; for levels and whole numbers, of which there are few,

@@ -56,9 +56,12 @@ fn repeated(expr: &Expr, written: &mut Written) {
     let mut operands: Vec<&Expr> = Vec::new();
     let mut open = vec![expr];
     while let Some(expr) = open.pop() {
-        match &expr.kind {
-            ExprKind::Binary(own, a, b) if *own == op => open.extend([&**b, &**a]),
-            _ => operands.push(expr),
+        if let ExprKind::Binary(own, a, b) = &expr.kind
+            && *own == op
+        {
+            open.extend([&**b, &**a]);
+        } else {
+            operands.push(expr);
         }
     }
     for (place, operand) in operands.iter().enumerate().take(MAX_OPERANDS) {
