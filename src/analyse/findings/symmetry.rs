@@ -142,7 +142,7 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
             let own = &orbit.members[0].outcome;
             let place = (own.row, own.line);
             let gives = given(study, place, &start);
-            let gives = words::simplified(&mut study.space, &gives);
+            let gives = written(study, &gives);
             let torn =
                 torn.entry(key).or_insert_with(|| Torn { point: start, along: along.clone(), lines: BTreeMap::new() });
             torn.lines.entry(place).or_default().insert(gives);
