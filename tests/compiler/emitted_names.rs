@@ -148,7 +148,7 @@ fn large(names: Vec<String>) -> impl Strategy<Value = String> {
 }
 
 /// Tables whose guards are large, mention named values twice, and are followed by guards and values that mention them
-/// again; with a fetched input, a symmetry, and levels.
+/// again; with a fetched input, a symmetry, and levels. A named value may be a constant zero, which nothing is divided by.
 fn table() -> impl Strategy<Value = String> {
     let names = || vec!["a".to_owned(), "b".to_owned(), "c".to_owned()];
     let sized = (part(vec!["x".to_owned()]), part(vec!["y".to_owned()]))
@@ -159,8 +159,8 @@ fn table() -> impl Strategy<Value = String> {
             .prop_map(|(name, value, rest)| format!("{name} < 0.5 && {name} < {value}{rest}"));
     let value = prop_oneof![
         large(names()),
-        pick(&["a", "b * c", "if a < b { c } else { a / b }", "mix(a, b, c) + n"]),
-        (pick(&["a", "b"]), large(names())).prop_map(|(a, v)| format!("if {a} < y {{ {v} }} else {{ {a} / {a} }}")),
+        pick(&["a", "b * c", "if a < b { c } else { a / (y + b * b) }", "mix(a, b, c) + n"]),
+        (pick(&["a", "b"]), large(names())).prop_map(|(a, v)| format!("if {a} < y {{ {v} }} else {{ {a} / (y + {a} * {a}) }}")),
     ];
     let case = (guard, value.clone(), prop::option::of(value.clone()), any::<bool>());
     (named, prop::collection::vec(case, 1..5), value).prop_map(|((a, b, c), cases, default)| {
