@@ -160,7 +160,8 @@ fn table() -> impl Strategy<Value = String> {
     let value = prop_oneof![
         large(names()),
         pick(&["a", "b * c", "if a < b { c } else { a / (y + b * b) }", "mix(a, b, c) + n"]),
-        (pick(&["a", "b"]), large(names())).prop_map(|(a, v)| format!("if {a} < y {{ {v} }} else {{ {a} / (y + {a} * {a}) }}")),
+        (pick(&["a", "b"]), large(names()))
+            .prop_map(|(a, v)| format!("if {a} < y {{ {v} }} else {{ {a} / (y + {a} * {a}) }}")),
     ];
     let case = (guard, value.clone(), prop::option::of(value.clone()), any::<bool>());
     (named, prop::collection::vec(case, 1..5), value).prop_map(|((a, b, c), cases, default)| {
