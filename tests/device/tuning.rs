@@ -131,7 +131,7 @@ fn a_profile_of_a_changed_table_is_mapped_with_a_warning() {
     place.file("smsr.ron", changed);
     let said = place.run("profile show fence.ron --table smsr.ron");
     assert_eq!(said.code, Some(1), "{}", said.err);
-    assert!(said.err.contains("every count stands; nothing is lost"), "{}", said.err);
+    assert!(said.err.contains("the counts of states stand, those of cases are of that time"), "{}", said.err);
     let text = text.replace("\"both\": 0.75}", "\"both\": 0.75, \"odd\": 1}").replace("id: 8,", "id: 108,");
     place.file("smsr.ron", text);
     let said = place.run("profile show fence.ron --table smsr.ron");
