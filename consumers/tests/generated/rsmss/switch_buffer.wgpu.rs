@@ -2,7 +2,7 @@
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  meaning 1 764331cbc2cabb33, 31 cases
-// Inputs: fnv1a 8c286d49fecfe1a3, of texts, weights and options
+// Inputs: fnv1a e99afff8762f94d9, of texts, weights and options
 // Plan:   switch_buffer
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
@@ -101,82 +101,82 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
         }
         2 => {
             if H == RSMSS_H_LEFT {
-                // case 21, line 1: dual positive vertical edge (section 3, case 21; rsmss.ron:402)
+                // case 21, line 1: dual positive vertical edge (section 3, case 21; rsmss.ron:517)
                 return RsmssResult { value: f32::min(f32::max(px, 0.0), 1.0), case_id: 21 };
             }
             if H == RSMSS_H_RIGHT {
-                // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:402)
+                // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:517)
                 return RsmssResult { value: f32::min(f32::max(1.0 - px, 0.0), 1.0), case_id: 21 };
             }
-            // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:400)
+            // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:515)
             return RsmssResult { value: 1.0, case_id: 21 };
         }
         3 => {
             if V == RSMSS_V_BOTTOM {
-                // case 20, line 1: dual positive horizontal edge (section 3, case 20; rsmss.ron:396)
+                // case 20, line 1: dual positive horizontal edge (section 3, case 20; rsmss.ron:510)
                 return RsmssResult { value: f32::min(f32::max(1.0 - py, 0.0), 1.0), case_id: 20 };
             }
             if V == RSMSS_V_TOP {
-                // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:396)
+                // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:510)
                 return RsmssResult { value: f32::min(f32::max(py, 0.0), 1.0), case_id: 20 };
             }
-            // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:394)
+            // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:508)
             return RsmssResult { value: 1.0, case_id: 20 };
         }
         4 => {
             if H == RSMSS_H_LEFT {
-                // case 29, line 1: dual positive vertical edge (section 3, case 29; rsmss.ron:455)
+                // case 29, line 1: dual positive vertical edge (section 3, case 29; rsmss.ron:574)
                 return RsmssResult { value: f32::min(f32::max(1.0 - px, 0.0), 1.0), case_id: 29 };
             }
             if H == RSMSS_H_RIGHT {
-                // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:455)
+                // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:574)
                 return RsmssResult { value: f32::min(f32::max(px, 0.0), 1.0), case_id: 29 };
             }
-            // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:453)
+            // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:572)
             return RsmssResult { value: 0.0, case_id: 29 };
         }
         5 => {
             if V == RSMSS_V_BOTTOM {
-                // case 28, line 1: dual positive horizontal edge (section 3, case 28; rsmss.ron:448)
+                // case 28, line 1: dual positive horizontal edge (section 3, case 28; rsmss.ron:566)
                 return RsmssResult { value: f32::min(f32::max(py, 0.0), 1.0), case_id: 28 };
             }
             if V == RSMSS_V_TOP {
-                // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:448)
+                // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:566)
                 return RsmssResult { value: f32::min(f32::max(1.0 - py, 0.0), 1.0), case_id: 28 };
             }
-            // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:446)
+            // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:564)
             return RsmssResult { value: 0.0, case_id: 28 };
         }
         6 => {
-            // case 22: horizontal edge (section 3, case 22; rsmss.ron:408)
+            // case 22: horizontal edge (section 3, case 22; rsmss.ron:524)
             let F22: f32 = if V == RSMSS_V_BOTTOM { (2.0 - py) - dH } else { (1.0 + py) - dH };
             return RsmssResult { value: f32::min(f32::max(F22, 0.0), 1.0), case_id: 22 };
         }
         7 => {
-            // case 30: horizontal edge (section 3, case 30; rsmss.ron:461)
+            // case 30: horizontal edge (section 3, case 30; rsmss.ron:581)
             let F30: f32 = if V == RSMSS_V_BOTTOM { (py + dH) - 1.0 } else { dH - py };
             return RsmssResult { value: f32::min(f32::max(F30, 0.0), 1.0), case_id: 30 };
         }
         8 => {
             let d_cb_left: u32 = site.d_cb_left();
             if d_cb_left == RSMSS_V_NONE {
-                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:302)
+                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:379)
                 return RsmssResult { value: f32::min(f32::max(1.0 - dH, 0.0), 1.0), case_id: 11 };
             }
             let d_cb_right: u32 = site.d_cb_right();
             if d_cb_right == RSMSS_V_NONE {
-                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:302)
+                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:379)
                 return RsmssResult { value: f32::min(f32::max(1.0 - dH, 0.0), 1.0), case_id: 11 };
             }
             if (d_cb_left == RSMSS_V_TOP) || (d_cb_right == RSMSS_V_TOP) {
-                // case 11, line 2: inside a horizontal gap (section 3, case 11; rsmss.ron:303)
+                // case 11, line 2: inside a horizontal gap (section 3, case 11; rsmss.ron:380)
                 return RsmssResult { value: f32::min(f32::max((1.0 + py) - dH, 0.0), 1.0), case_id: 11 };
             }
             if (d_cb_left == RSMSS_V_BOTTOM) || (d_cb_right == RSMSS_V_BOTTOM) {
-                // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:304)
+                // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:381)
                 return RsmssResult { value: f32::min(f32::max((2.0 - py) - dH, 0.0), 1.0), case_id: 11 };
             }
-            // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:299)
+            // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:376)
             return RsmssResult { value: 1.0, case_id: 11 };
         }
         9 => {
@@ -184,88 +184,88 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             if n_left == RSMSS_V_BOTH {
                 let n_right: u32 = site.n_right();
                 if n_right == RSMSS_V_BOTH {
-                    // case 6, line 1: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:223)
+                    // case 6, line 1: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:262)
                     return RsmssResult { value: 0.0, case_id: 6 };
                 }
                 if n_right == RSMSS_V_TOP {
-                    // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:224)
+                    // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:263)
                     return RsmssResult { value: f32::min(f32::max((px + py) - 1.0, 0.0), 1.0), case_id: 6 };
                 }
                 if n_right == RSMSS_V_BOTTOM {
-                    // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:226)
+                    // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:265)
                     return RsmssResult { value: f32::min(f32::max(px - py, 0.0), 1.0), case_id: 6 };
                 }
-                // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:220)
+                // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:259)
                 return RsmssResult { value: 1.0, case_id: 6 };
             }
             let n_right: u32 = site.n_right();
             if n_right == RSMSS_V_TOP {
-                // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:224)
+                // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:263)
                 return RsmssResult { value: f32::min(f32::max((px + py) - 1.0, 0.0), 1.0), case_id: 6 };
             }
             if n_left == RSMSS_V_TOP {
-                // case 6, line 3: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:225)
+                // case 6, line 3: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:264)
                 return RsmssResult { value: f32::min(f32::max(py - px, 0.0), 1.0), case_id: 6 };
             }
             if n_right == RSMSS_V_BOTTOM {
-                // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:226)
+                // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:265)
                 return RsmssResult { value: f32::min(f32::max(px - py, 0.0), 1.0), case_id: 6 };
             }
             if n_left == RSMSS_V_BOTTOM {
-                // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:227)
+                // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:266)
                 return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 6 };
             }
-            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:220)
+            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:259)
             return RsmssResult { value: 1.0, case_id: 6 };
         }
         10 => {
             let d_cb_v: u32 = site.d_cb_v();
             if d_cb_v == RSMSS_V_NONE {
-                // case 15, line 1: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:361)
+                // case 15, line 1: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:469)
                 return RsmssResult { value: f32::min(f32::max(dH, 0.0), 1.0), case_id: 15 };
             }
             if d_cb_v == RSMSS_V_TOP {
-                // case 15, line 2: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:362)
+                // case 15, line 2: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:470)
                 let A_v: f32 = if tH == RSMSS_TH_DUAL_POSITIVE { 1.0 - py } else { dH - py };
                 return RsmssResult { value: f32::min(f32::max(A_v, 0.0), 1.0), case_id: 15 };
             }
             if d_cb_v == RSMSS_V_BOTTOM {
-                // case 15, line 3: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:363)
+                // case 15, line 3: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:471)
                 let B_v: f32 = if tH == RSMSS_TH_DUAL_POSITIVE { py } else { (dH + py) - 1.0 };
                 return RsmssResult { value: f32::min(f32::max(B_v, 0.0), 1.0), case_id: 15 };
             }
-            // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:358)
+            // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:466)
             return RsmssResult { value: 0.0, case_id: 15 };
         }
         11 => {
-            // case 23: vertical edge (section 3, case 23; rsmss.ron:412)
+            // case 23: vertical edge (section 3, case 23; rsmss.ron:528)
             let F23: f32 = if H == RSMSS_H_LEFT { (1.0 + px) - dV } else { (2.0 - px) - dV };
             return RsmssResult { value: f32::min(f32::max(F23, 0.0), 1.0), case_id: 23 };
         }
         12 => {
-            // case 31: vertical edge (section 3, case 31; rsmss.ron:465)
+            // case 31: vertical edge (section 3, case 31; rsmss.ron:585)
             let F31: f32 = if H == RSMSS_H_LEFT { dV - px } else { (px + dV) - 1.0 };
             return RsmssResult { value: f32::min(f32::max(F31, 0.0), 1.0), case_id: 31 };
         }
         13 => {
-            // case 18: lone corner (section 3, case 18; rsmss.ron:384)
+            // case 18: lone corner (section 3, case 18; rsmss.ron:496)
             let F22: f32 = if V == RSMSS_V_BOTTOM { (2.0 - py) - dH } else { (1.0 + py) - dH };
             return RsmssResult { value: f32::min(f32::max(F22, 0.0), 1.0), case_id: 18 };
         }
         14 => {
-            // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:378)
+            // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:490)
             let F20: f32 = if V == RSMSS_V_BOTTOM { 1.0 - py } else { py };
             let F22: f32 = if V == RSMSS_V_BOTTOM { (2.0 - py) - dH } else { (1.0 + py) - dH };
             return RsmssResult { value: f32::min(f32::max(if tH == RSMSS_TH_DUAL_POSITIVE { F20 } else { F22 }, 0.0), 1.0), case_id: 17 };
         }
         15 => {
-            // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:372)
+            // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:484)
             let u: f32 = if H == RSMSS_H_LEFT { px } else { 1.0 - px };
             let F23: f32 = if H == RSMSS_H_LEFT { (1.0 + px) - dV } else { (2.0 - px) - dV };
             return RsmssResult { value: f32::min(f32::max(if tV == RSMSS_TH_DUAL_POSITIVE { u } else { F23 }, 0.0), 1.0), case_id: 16 };
         }
         16 => {
-            // case 19: two edges meet: the darker one (section 3, case 19; rsmss.ron:390)
+            // case 19: two edges meet: the darker one (section 3, case 19; rsmss.ron:503)
             let u: f32 = if H == RSMSS_H_LEFT { px } else { 1.0 - px };
             let F23: f32 = if H == RSMSS_H_LEFT { (1.0 + px) - dV } else { (2.0 - px) - dV };
             let F20: f32 = if V == RSMSS_V_BOTTOM { 1.0 - py } else { py };
@@ -273,24 +273,24 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             return RsmssResult { value: f32::min(f32::max(f32::min(if tV == RSMSS_TH_DUAL_POSITIVE { u } else { F23 }, if tH == RSMSS_TH_DUAL_POSITIVE { F20 } else { F22 }), 0.0), 1.0), case_id: 19 };
         }
         17 => {
-            // case 26: lone corner (section 3, case 26; rsmss.ron:436)
+            // case 26: lone corner (section 3, case 26; rsmss.ron:552)
             let F30: f32 = if V == RSMSS_V_BOTTOM { (py + dH) - 1.0 } else { dH - py };
             return RsmssResult { value: f32::min(f32::max(F30, 0.0), 1.0), case_id: 26 };
         }
         18 => {
-            // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:427)
+            // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:543)
             let F28: f32 = if V == RSMSS_V_BOTTOM { py } else { 1.0 - py };
             let F30: f32 = if V == RSMSS_V_BOTTOM { (py + dH) - 1.0 } else { dH - py };
             return RsmssResult { value: f32::min(f32::max(if tH == RSMSS_TH_DUAL_POSITIVE { F28 } else { F30 }, 0.0), 1.0), case_id: 25 };
         }
         19 => {
-            // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:418)
+            // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:534)
             let F29: f32 = if H == RSMSS_H_LEFT { 1.0 - px } else { px };
             let F31: f32 = if H == RSMSS_H_LEFT { dV - px } else { (px + dV) - 1.0 };
             return RsmssResult { value: f32::min(f32::max(if tV == RSMSS_TH_DUAL_POSITIVE { F29 } else { F31 }, 0.0), 1.0), case_id: 24 };
         }
         20 => {
-            // case 27: two edges meet: the lighter one (section 3, case 27; rsmss.ron:442)
+            // case 27: two edges meet: the lighter one (section 3, case 27; rsmss.ron:559)
             let F29: f32 = if H == RSMSS_H_LEFT { 1.0 - px } else { px };
             let F31: f32 = if H == RSMSS_H_LEFT { dV - px } else { (px + dV) - 1.0 };
             let F28: f32 = if V == RSMSS_V_BOTTOM { py } else { 1.0 - py };
@@ -300,20 +300,20 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
         21 => {
             let d_cb_v: u32 = site.d_cb_v();
             if d_cb_v == RSMSS_V_NONE {
-                // case 10, line 1: the tip of a horizontal gap (section 3, case 10; rsmss.ron:289)
+                // case 10, line 1: the tip of a horizontal gap (section 3, case 10; rsmss.ron:365)
                 return RsmssResult { value: f32::min(f32::max(1.0 - dH, 0.0), 1.0), case_id: 10 };
             }
             if d_cb_v == RSMSS_V_TOP {
-                // case 10, line 2: the tip of a horizontal gap (section 3, case 10; rsmss.ron:290)
+                // case 10, line 2: the tip of a horizontal gap (section 3, case 10; rsmss.ron:366)
                 let u: f32 = if H == RSMSS_H_LEFT { px } else { 1.0 - px };
                 return RsmssResult { value: f32::min(f32::max(f32::min(u, (1.0 + py) - dH), 0.0), 1.0), case_id: 10 };
             }
             if d_cb_v == RSMSS_V_BOTTOM {
-                // case 10, line 3: the tip of a horizontal gap (section 3, case 10; rsmss.ron:291)
+                // case 10, line 3: the tip of a horizontal gap (section 3, case 10; rsmss.ron:367)
                 let u: f32 = if H == RSMSS_H_LEFT { px } else { 1.0 - px };
                 return RsmssResult { value: f32::min(f32::max(f32::min(u, (2.0 - py) - dH), 0.0), 1.0), case_id: 10 };
             }
-            // case 10, line 4: the tip of a horizontal gap (section 3, case 10; rsmss.ron:292)
+            // case 10, line 4: the tip of a horizontal gap (section 3, case 10; rsmss.ron:368)
             let u: f32 = if H == RSMSS_H_LEFT { px } else { 1.0 - px };
             return RsmssResult { value: f32::min(f32::max(u, 0.0), 1.0), case_id: 10 };
         }
@@ -321,120 +321,120 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             if H == RSMSS_H_LEFT {
                 let n_right: u32 = site.n_right();
                 if n_right == RSMSS_V_BOTH {
-                    // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:240)
+                    // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:285)
                     return RsmssResult { value: f32::min(f32::max(f32::min(f32::min((1.0 + py) - dH, (2.0 - py) - dH), px), 0.0), 1.0), case_id: 7 };
                 }
                 if n_right == RSMSS_V_TOP {
-                    // case 7, line 2: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:241)
+                    // case 7, line 2: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:286)
                     return RsmssResult { value: f32::min(f32::max((px + py) - 1.0, 0.0), 1.0), case_id: 7 };
                 }
                 if n_right == RSMSS_V_BOTTOM {
-                    // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:243)
+                    // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:288)
                     return RsmssResult { value: f32::min(f32::max(px - py, 0.0), 1.0), case_id: 7 };
                 }
-                // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:237)
+                // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:282)
                 return RsmssResult { value: 1.0, case_id: 7 };
             }
             let n_left: u32 = site.n_left();
             if n_left == RSMSS_V_BOTH {
-                // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:240)
+                // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:285)
                 return RsmssResult { value: f32::min(f32::max(f32::min(f32::min((1.0 + py) - dH, (2.0 - py) - dH), 1.0 - px), 0.0), 1.0), case_id: 7 };
             }
             if n_left == RSMSS_V_TOP {
-                // case 7, line 3: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:242)
+                // case 7, line 3: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:287)
                 return RsmssResult { value: f32::min(f32::max(py - px, 0.0), 1.0), case_id: 7 };
             }
             if n_left == RSMSS_V_BOTTOM {
-                // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:244)
+                // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:289)
                 return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 7 };
             }
-            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:237)
+            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:282)
             return RsmssResult { value: 1.0, case_id: 7 };
         }
         23 => {
             if H == RSMSS_H_LEFT {
                 let n_right: u32 = site.n_right();
                 if n_right == RSMSS_V_NONE {
-                    // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:345)
+                    // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:440)
                     return RsmssResult { value: f32::min(f32::max(dH, 0.0), 1.0), case_id: 14 };
                 }
                 if n_right == RSMSS_V_BOTTOM {
-                    // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:346)
+                    // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:441)
                     let B_v: f32 = if tH == RSMSS_TH_DUAL_POSITIVE { py } else { (dH + py) - 1.0 };
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - px, B_v), 0.0), 1.0), case_id: 14 };
                 }
                 if n_right == RSMSS_V_TOP {
-                    // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:347)
+                    // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:442)
                     let A_v: f32 = if tH == RSMSS_TH_DUAL_POSITIVE { 1.0 - py } else { dH - py };
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - px, A_v), 0.0), 1.0), case_id: 14 };
                 }
                 let d_cb_v: u32 = site.d_cb_v();
                 if d_cb_v == RSMSS_V_NONE {
-                    // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:348)
+                    // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:443)
                     return RsmssResult { value: f32::min(f32::max(dH, 0.0), 1.0), case_id: 14 };
                 }
                 if d_cb_v == RSMSS_V_TOP {
-                    // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:349)
+                    // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:444)
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - px, 1.0 - py), 0.0), 1.0), case_id: 14 };
                 }
                 if d_cb_v == RSMSS_V_BOTTOM {
-                    // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:350)
+                    // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:445)
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - px, py), 0.0), 1.0), case_id: 14 };
                 }
-                // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:342)
+                // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:437)
                 return RsmssResult { value: 0.0, case_id: 14 };
             }
             let n_left: u32 = site.n_left();
             if n_left == RSMSS_V_NONE {
-                // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:345)
+                // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:440)
                 return RsmssResult { value: f32::min(f32::max(dH, 0.0), 1.0), case_id: 14 };
             }
             if n_left == RSMSS_V_BOTTOM {
-                // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:346)
+                // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:441)
                 let B_v: f32 = if tH == RSMSS_TH_DUAL_POSITIVE { py } else { (dH + py) - 1.0 };
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - px), B_v), 0.0), 1.0), case_id: 14 };
             }
             if n_left == RSMSS_V_TOP {
-                // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:347)
+                // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:442)
                 let A_v: f32 = if tH == RSMSS_TH_DUAL_POSITIVE { 1.0 - py } else { dH - py };
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - px), A_v), 0.0), 1.0), case_id: 14 };
             }
             let d_cb_v: u32 = site.d_cb_v();
             if d_cb_v == RSMSS_V_NONE {
-                // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:348)
+                // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:443)
                 return RsmssResult { value: f32::min(f32::max(dH, 0.0), 1.0), case_id: 14 };
             }
             if d_cb_v == RSMSS_V_TOP {
-                // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:349)
+                // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:444)
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - px), 1.0 - py), 0.0), 1.0), case_id: 14 };
             }
             if d_cb_v == RSMSS_V_BOTTOM {
-                // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:350)
+                // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:445)
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - px), py), 0.0), 1.0), case_id: 14 };
             }
-            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:342)
+            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:437)
             return RsmssResult { value: 0.0, case_id: 14 };
         }
         24 => {
             let d_cb_top: u32 = site.d_cb_top();
             if d_cb_top == RSMSS_H_NONE {
-                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:274)
+                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:341)
                 return RsmssResult { value: f32::min(f32::max(1.0 - dV, 0.0), 1.0), case_id: 9 };
             }
             let d_cb_bottom: u32 = site.d_cb_bottom();
             if d_cb_bottom == RSMSS_H_NONE {
-                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:274)
+                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:341)
                 return RsmssResult { value: f32::min(f32::max(1.0 - dV, 0.0), 1.0), case_id: 9 };
             }
             if (d_cb_top == RSMSS_H_LEFT) || (d_cb_bottom == RSMSS_H_LEFT) {
-                // case 9, line 2: inside a vertical gap (section 3, case 9; rsmss.ron:275)
+                // case 9, line 2: inside a vertical gap (section 3, case 9; rsmss.ron:342)
                 return RsmssResult { value: f32::min(f32::max((1.0 + px) - dV, 0.0), 1.0), case_id: 9 };
             }
             if (d_cb_top == RSMSS_H_RIGHT) || (d_cb_bottom == RSMSS_H_RIGHT) {
-                // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:276)
+                // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:343)
                 return RsmssResult { value: f32::min(f32::max((2.0 - px) - dV, 0.0), 1.0), case_id: 9 };
             }
-            // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:271)
+            // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:338)
             return RsmssResult { value: 1.0, case_id: 9 };
         }
         25 => {
@@ -442,76 +442,76 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             if n_top == RSMSS_H_BOTH {
                 let n_bottom: u32 = site.n_bottom();
                 if n_bottom == RSMSS_H_BOTH {
-                    // case 4, line 1: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:188)
+                    // case 4, line 1: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:193)
                     return RsmssResult { value: 0.0, case_id: 4 };
                 }
                 if n_bottom == RSMSS_H_LEFT {
-                    // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:189)
+                    // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:194)
                     return RsmssResult { value: f32::min(f32::max((px + py) - 1.0, 0.0), 1.0), case_id: 4 };
                 }
                 if n_bottom == RSMSS_H_RIGHT {
-                    // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
+                    // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:195)
                     return RsmssResult { value: f32::min(f32::max(py - px, 0.0), 1.0), case_id: 4 };
                 }
-                // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:185)
+                // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
                 return RsmssResult { value: 1.0, case_id: 4 };
             }
             let n_bottom: u32 = site.n_bottom();
             if n_bottom == RSMSS_H_LEFT {
-                // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:189)
+                // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:194)
                 return RsmssResult { value: f32::min(f32::max((px + py) - 1.0, 0.0), 1.0), case_id: 4 };
             }
             if n_bottom == RSMSS_H_RIGHT {
-                // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
+                // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:195)
                 return RsmssResult { value: f32::min(f32::max(py - px, 0.0), 1.0), case_id: 4 };
             }
             if n_top == RSMSS_H_LEFT {
-                // case 4, line 4: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:191)
+                // case 4, line 4: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:196)
                 return RsmssResult { value: f32::min(f32::max(px - py, 0.0), 1.0), case_id: 4 };
             }
             if n_top == RSMSS_H_RIGHT {
-                // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:192)
+                // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:197)
                 return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 4 };
             }
-            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:185)
+            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
             return RsmssResult { value: 1.0, case_id: 4 };
         }
         26 => {
             let d_cb_h: u32 = site.d_cb_h();
             if d_cb_h == RSMSS_H_NONE {
-                // case 13, line 1: inside a thin vertical shadow (section 3, case 13; rsmss.ron:335)
+                // case 13, line 1: inside a thin vertical shadow (section 3, case 13; rsmss.ron:426)
                 return RsmssResult { value: f32::min(f32::max(dV, 0.0), 1.0), case_id: 13 };
             }
             if d_cb_h == RSMSS_H_LEFT {
-                // case 13, line 2: inside a thin vertical shadow (section 3, case 13; rsmss.ron:336)
+                // case 13, line 2: inside a thin vertical shadow (section 3, case 13; rsmss.ron:427)
                 let A_h: f32 = if tV == RSMSS_TH_DUAL_POSITIVE { 1.0 - px } else { dV - px };
                 return RsmssResult { value: f32::min(f32::max(A_h, 0.0), 1.0), case_id: 13 };
             }
             if d_cb_h == RSMSS_H_RIGHT {
-                // case 13, line 3: inside a thin vertical shadow (section 3, case 13; rsmss.ron:337)
+                // case 13, line 3: inside a thin vertical shadow (section 3, case 13; rsmss.ron:428)
                 let B_h: f32 = if tV == RSMSS_TH_DUAL_POSITIVE { px } else { (dV + px) - 1.0 };
                 return RsmssResult { value: f32::min(f32::max(B_h, 0.0), 1.0), case_id: 13 };
             }
-            // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:332)
+            // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:423)
             return RsmssResult { value: 0.0, case_id: 13 };
         }
         27 => {
             let d_cb_h: u32 = site.d_cb_h();
             if d_cb_h == RSMSS_H_NONE {
-                // case 8, line 1: the tip of a vertical gap (section 3, case 8; rsmss.ron:257)
+                // case 8, line 1: the tip of a vertical gap (section 3, case 8; rsmss.ron:306)
                 return RsmssResult { value: f32::min(f32::max(1.0 - dV, 0.0), 1.0), case_id: 8 };
             }
             if d_cb_h == RSMSS_H_RIGHT {
-                // case 8, line 2: the tip of a vertical gap (section 3, case 8; rsmss.ron:258)
+                // case 8, line 2: the tip of a vertical gap (section 3, case 8; rsmss.ron:307)
                 let w: f32 = if V == RSMSS_V_TOP { py } else { 1.0 - py };
                 return RsmssResult { value: f32::min(f32::max(f32::min(w, (2.0 - px) - dV), 0.0), 1.0), case_id: 8 };
             }
             if d_cb_h == RSMSS_H_LEFT {
-                // case 8, line 3: the tip of a vertical gap (section 3, case 8; rsmss.ron:259)
+                // case 8, line 3: the tip of a vertical gap (section 3, case 8; rsmss.ron:308)
                 let w: f32 = if V == RSMSS_V_TOP { py } else { 1.0 - py };
                 return RsmssResult { value: f32::min(f32::max(f32::min(w, (1.0 + px) - dV), 0.0), 1.0), case_id: 8 };
             }
-            // case 8, line 4: the tip of a vertical gap (section 3, case 8; rsmss.ron:260)
+            // case 8, line 4: the tip of a vertical gap (section 3, case 8; rsmss.ron:309)
             let w: f32 = if V == RSMSS_V_TOP { py } else { 1.0 - py };
             return RsmssResult { value: f32::min(f32::max(w, 0.0), 1.0), case_id: 8 };
         }
@@ -519,107 +519,107 @@ pub fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: &mut i
             if V == RSMSS_V_TOP {
                 let n_bottom: u32 = site.n_bottom();
                 if n_bottom == RSMSS_H_BOTH {
-                    // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:206)
+                    // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:221)
                     return RsmssResult { value: f32::min(f32::max(f32::min(f32::min((1.0 + px) - dV, (2.0 - px) - dV), py), 0.0), 1.0), case_id: 5 };
                 }
                 if n_bottom == RSMSS_H_LEFT {
-                    // case 5, line 2: the closed end of a vertical gap (section 3, case 5; rsmss.ron:207)
+                    // case 5, line 2: the closed end of a vertical gap (section 3, case 5; rsmss.ron:222)
                     return RsmssResult { value: f32::min(f32::max((px + py) - 1.0, 0.0), 1.0), case_id: 5 };
                 }
                 if n_bottom == RSMSS_H_RIGHT {
-                    // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:208)
+                    // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:223)
                     return RsmssResult { value: f32::min(f32::max(py - px, 0.0), 1.0), case_id: 5 };
                 }
-                // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:203)
+                // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:218)
                 return RsmssResult { value: 1.0, case_id: 5 };
             }
             let n_top: u32 = site.n_top();
             if n_top == RSMSS_H_BOTH {
-                // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:206)
+                // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:221)
                 return RsmssResult { value: f32::min(f32::max(f32::min(f32::min((1.0 + px) - dV, (2.0 - px) - dV), 1.0 - py), 0.0), 1.0), case_id: 5 };
             }
             if n_top == RSMSS_H_LEFT {
-                // case 5, line 4: the closed end of a vertical gap (section 3, case 5; rsmss.ron:209)
+                // case 5, line 4: the closed end of a vertical gap (section 3, case 5; rsmss.ron:224)
                 return RsmssResult { value: f32::min(f32::max(px - py, 0.0), 1.0), case_id: 5 };
             }
             if n_top == RSMSS_H_RIGHT {
-                // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:210)
+                // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:225)
                 return RsmssResult { value: f32::min(f32::max((1.0 - px) - py, 0.0), 1.0), case_id: 5 };
             }
-            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:203)
+            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:218)
             return RsmssResult { value: 1.0, case_id: 5 };
         }
         29 => {
             if V == RSMSS_V_TOP {
                 let n_bottom: u32 = site.n_bottom();
                 if n_bottom == RSMSS_H_NONE {
-                    // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:319)
+                    // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:397)
                     return RsmssResult { value: f32::min(f32::max(dV, 0.0), 1.0), case_id: 12 };
                 }
                 if n_bottom == RSMSS_H_RIGHT {
-                    // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:320)
+                    // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:398)
                     let B_h: f32 = if tV == RSMSS_TH_DUAL_POSITIVE { px } else { (dV + px) - 1.0 };
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - py, B_h), 0.0), 1.0), case_id: 12 };
                 }
                 if n_bottom == RSMSS_H_LEFT {
-                    // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:321)
+                    // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:399)
                     let A_h: f32 = if tV == RSMSS_TH_DUAL_POSITIVE { 1.0 - px } else { dV - px };
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - py, A_h), 0.0), 1.0), case_id: 12 };
                 }
                 let d_cb_h: u32 = site.d_cb_h();
                 if d_cb_h == RSMSS_H_NONE {
-                    // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:322)
+                    // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:400)
                     return RsmssResult { value: f32::min(f32::max(dV, 0.0), 1.0), case_id: 12 };
                 }
                 if d_cb_h == RSMSS_H_LEFT {
-                    // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:323)
+                    // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:401)
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - py, 1.0 - px), 0.0), 1.0), case_id: 12 };
                 }
                 if d_cb_h == RSMSS_H_RIGHT {
-                    // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:324)
+                    // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:402)
                     return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - py, px), 0.0), 1.0), case_id: 12 };
                 }
-                // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:316)
+                // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:394)
                 return RsmssResult { value: 0.0, case_id: 12 };
             }
             let n_top: u32 = site.n_top();
             if n_top == RSMSS_H_NONE {
-                // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:319)
+                // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:397)
                 return RsmssResult { value: f32::min(f32::max(dV, 0.0), 1.0), case_id: 12 };
             }
             if n_top == RSMSS_H_RIGHT {
-                // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:320)
+                // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:398)
                 let B_h: f32 = if tV == RSMSS_TH_DUAL_POSITIVE { px } else { (dV + px) - 1.0 };
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - py), B_h), 0.0), 1.0), case_id: 12 };
             }
             if n_top == RSMSS_H_LEFT {
-                // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:321)
+                // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:399)
                 let A_h: f32 = if tV == RSMSS_TH_DUAL_POSITIVE { 1.0 - px } else { dV - px };
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - py), A_h), 0.0), 1.0), case_id: 12 };
             }
             let d_cb_h: u32 = site.d_cb_h();
             if d_cb_h == RSMSS_H_NONE {
-                // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:322)
+                // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:400)
                 return RsmssResult { value: f32::min(f32::max(dV, 0.0), 1.0), case_id: 12 };
             }
             if d_cb_h == RSMSS_H_LEFT {
-                // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:323)
+                // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:401)
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - py), 1.0 - px), 0.0), 1.0), case_id: 12 };
             }
             if d_cb_h == RSMSS_H_RIGHT {
-                // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:324)
+                // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:402)
                 return RsmssResult { value: f32::min(f32::max(f32::max(1.0 - (1.0 - py), px), 0.0), 1.0), case_id: 12 };
             }
-            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:316)
+            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:394)
             return RsmssResult { value: 0.0, case_id: 12 };
         }
         30 => {
-            // case 2: a single lit texel: close it (section 3, case 2; rsmss.ron:177)
+            // case 2: a single lit texel: close it (section 3, case 2; rsmss.ron:182)
             return RsmssResult { value: 0.0, case_id: 2 };
         }
         _ => {}
     }
-    // case 3: a single shadowed texel: remove it (section 3, case 3; rsmss.ron:181)
+    // case 3: a single shadowed texel: remove it (section 3, case 3; rsmss.ron:186)
     return RsmssResult { value: 1.0, case_id: 3 };
 }
 
@@ -856,7 +856,7 @@ pub const COLUMNS: &str = r#"// Generated by umbrage 0.1.0 from rsmss.ron; do no
 // Revectorization-based soft shadow silhouettes: visibility of a fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 3
 // Table:  meaning 1 764331cbc2cabb33, 31 cases
-// Inputs: fnv1a 8c286d49fecfe1a3, of texts, weights and options
+// Inputs: fnv1a e99afff8762f94d9, of texts, weights and options
 // Plan:   switch_buffer
 // Weight: profile rsmss.ron, 25619 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Proof:  equal to the table on 1152 states, 2856 paths; the same operations on each
@@ -948,82 +948,82 @@ fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: RsmssSite)
         }
         case 2u: {
             if (H == RSMSS_H_LEFT) {
-                // case 21, line 1: dual positive vertical edge (section 3, case 21; rsmss.ron:402)
+                // case 21, line 1: dual positive vertical edge (section 3, case 21; rsmss.ron:517)
                 return RsmssResult(clamp(px, 0.0, 1.0), 21u);
             }
             if (H == RSMSS_H_RIGHT) {
-                // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:402)
+                // case 21, line 2: dual positive vertical edge (section 3, case 21; rsmss.ron:517)
                 return RsmssResult(clamp(1.0 - px, 0.0, 1.0), 21u);
             }
-            // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:400)
+            // case 21, no line applies, so the default: dual positive vertical edge (section 3, case 21; rsmss.ron:515)
             return RsmssResult(1.0, 21u);
         }
         case 3u: {
             if (V == RSMSS_V_BOTTOM) {
-                // case 20, line 1: dual positive horizontal edge (section 3, case 20; rsmss.ron:396)
+                // case 20, line 1: dual positive horizontal edge (section 3, case 20; rsmss.ron:510)
                 return RsmssResult(clamp(1.0 - py, 0.0, 1.0), 20u);
             }
             if (V == RSMSS_V_TOP) {
-                // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:396)
+                // case 20, line 2: dual positive horizontal edge (section 3, case 20; rsmss.ron:510)
                 return RsmssResult(clamp(py, 0.0, 1.0), 20u);
             }
-            // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:394)
+            // case 20, no line applies, so the default: dual positive horizontal edge (section 3, case 20; rsmss.ron:508)
             return RsmssResult(1.0, 20u);
         }
         case 4u: {
             if (H == RSMSS_H_LEFT) {
-                // case 29, line 1: dual positive vertical edge (section 3, case 29; rsmss.ron:455)
+                // case 29, line 1: dual positive vertical edge (section 3, case 29; rsmss.ron:574)
                 return RsmssResult(clamp(1.0 - px, 0.0, 1.0), 29u);
             }
             if (H == RSMSS_H_RIGHT) {
-                // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:455)
+                // case 29, line 2: dual positive vertical edge (section 3, case 29; rsmss.ron:574)
                 return RsmssResult(clamp(px, 0.0, 1.0), 29u);
             }
-            // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:453)
+            // case 29, no line applies, so the default: dual positive vertical edge (section 3, case 29; rsmss.ron:572)
             return RsmssResult(0.0, 29u);
         }
         case 5u: {
             if (V == RSMSS_V_BOTTOM) {
-                // case 28, line 1: dual positive horizontal edge (section 3, case 28; rsmss.ron:448)
+                // case 28, line 1: dual positive horizontal edge (section 3, case 28; rsmss.ron:566)
                 return RsmssResult(clamp(py, 0.0, 1.0), 28u);
             }
             if (V == RSMSS_V_TOP) {
-                // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:448)
+                // case 28, line 2: dual positive horizontal edge (section 3, case 28; rsmss.ron:566)
                 return RsmssResult(clamp(1.0 - py, 0.0, 1.0), 28u);
             }
-            // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:446)
+            // case 28, no line applies, so the default: dual positive horizontal edge (section 3, case 28; rsmss.ron:564)
             return RsmssResult(0.0, 28u);
         }
         case 6u: {
-            // case 22: horizontal edge (section 3, case 22; rsmss.ron:408)
+            // case 22: horizontal edge (section 3, case 22; rsmss.ron:524)
             let F22 = select((1.0 + py) - dH, (2.0 - py) - dH, V == RSMSS_V_BOTTOM);
             return RsmssResult(clamp(F22, 0.0, 1.0), 22u);
         }
         case 7u: {
-            // case 30: horizontal edge (section 3, case 30; rsmss.ron:461)
+            // case 30: horizontal edge (section 3, case 30; rsmss.ron:581)
             let F30 = select(dH - py, (py + dH) - 1.0, V == RSMSS_V_BOTTOM);
             return RsmssResult(clamp(F30, 0.0, 1.0), 30u);
         }
         case 8u: {
             let d_cb_left = rsmss_fetch_d_cb_left(site);
             if (d_cb_left == RSMSS_V_NONE) {
-                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:302)
+                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:379)
                 return RsmssResult(clamp(1.0 - dH, 0.0, 1.0), 11u);
             }
             let d_cb_right = rsmss_fetch_d_cb_right(site);
             if (d_cb_right == RSMSS_V_NONE) {
-                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:302)
+                // case 11, line 1: inside a horizontal gap (section 3, case 11; rsmss.ron:379)
                 return RsmssResult(clamp(1.0 - dH, 0.0, 1.0), 11u);
             }
             if ((d_cb_left == RSMSS_V_TOP) || (d_cb_right == RSMSS_V_TOP)) {
-                // case 11, line 2: inside a horizontal gap (section 3, case 11; rsmss.ron:303)
+                // case 11, line 2: inside a horizontal gap (section 3, case 11; rsmss.ron:380)
                 return RsmssResult(clamp((1.0 + py) - dH, 0.0, 1.0), 11u);
             }
             if ((d_cb_left == RSMSS_V_BOTTOM) || (d_cb_right == RSMSS_V_BOTTOM)) {
-                // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:304)
+                // case 11, line 3: inside a horizontal gap (section 3, case 11; rsmss.ron:381)
                 return RsmssResult(clamp((2.0 - py) - dH, 0.0, 1.0), 11u);
             }
-            // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:299)
+            // case 11, no line applies, so the default: inside a horizontal gap (section 3, case 11; rsmss.ron:376)
             return RsmssResult(1.0, 11u);
         }
         case 9u: {
@@ -1031,88 +1031,88 @@ fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: RsmssSite)
             if (n_left == RSMSS_V_BOTH) {
                 let n_right = rsmss_fetch_n_right(site);
                 if (n_right == RSMSS_V_BOTH) {
-                    // case 6, line 1: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:223)
+                    // case 6, line 1: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:262)
                     return RsmssResult(0.0, 6u);
                 }
                 if (n_right == RSMSS_V_TOP) {
-                    // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:224)
+                    // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:263)
                     return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 6u);
                 }
                 if (n_right == RSMSS_V_BOTTOM) {
-                    // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:226)
+                    // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:265)
                     return RsmssResult(clamp(px - py, 0.0, 1.0), 6u);
                 }
-                // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:220)
+                // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:259)
                 return RsmssResult(1.0, 6u);
             }
             let n_right = rsmss_fetch_n_right(site);
             if (n_right == RSMSS_V_TOP) {
-                // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:224)
+                // case 6, line 2: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:263)
                 return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 6u);
             }
             if (n_left == RSMSS_V_TOP) {
-                // case 6, line 3: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:225)
+                // case 6, line 3: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:264)
                 return RsmssResult(clamp(py - px, 0.0, 1.0), 6u);
             }
             if (n_right == RSMSS_V_BOTTOM) {
-                // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:226)
+                // case 6, line 4: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:265)
                 return RsmssResult(clamp(px - py, 0.0, 1.0), 6u);
             }
             if (n_left == RSMSS_V_BOTTOM) {
-                // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:227)
+                // case 6, line 5: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:266)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 6u);
             }
-            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:220)
+            // case 6, no line applies, so the default: a horizontal gap, one texel high and long (section 3, case 6; rsmss.ron:259)
             return RsmssResult(1.0, 6u);
         }
         case 10u: {
             let d_cb_v = rsmss_fetch_d_cb_v(site);
             if (d_cb_v == RSMSS_V_NONE) {
-                // case 15, line 1: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:361)
+                // case 15, line 1: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:469)
                 return RsmssResult(clamp(dH, 0.0, 1.0), 15u);
             }
             if (d_cb_v == RSMSS_V_TOP) {
-                // case 15, line 2: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:362)
+                // case 15, line 2: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:470)
                 let A_v = select(dH - py, 1.0 - py, tH == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(A_v, 0.0, 1.0), 15u);
             }
             if (d_cb_v == RSMSS_V_BOTTOM) {
-                // case 15, line 3: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:363)
+                // case 15, line 3: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:471)
                 let B_v = select((dH + py) - 1.0, py, tH == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(B_v, 0.0, 1.0), 15u);
             }
-            // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:358)
+            // case 15, no line applies, so the default: inside a thin horizontal shadow (section 3, case 15; rsmss.ron:466)
             return RsmssResult(0.0, 15u);
         }
         case 11u: {
-            // case 23: vertical edge (section 3, case 23; rsmss.ron:412)
+            // case 23: vertical edge (section 3, case 23; rsmss.ron:528)
             let F23 = select((2.0 - px) - dV, (1.0 + px) - dV, H == RSMSS_H_LEFT);
             return RsmssResult(clamp(F23, 0.0, 1.0), 23u);
         }
         case 12u: {
-            // case 31: vertical edge (section 3, case 31; rsmss.ron:465)
+            // case 31: vertical edge (section 3, case 31; rsmss.ron:585)
             let F31 = select((px + dV) - 1.0, dV - px, H == RSMSS_H_LEFT);
             return RsmssResult(clamp(F31, 0.0, 1.0), 31u);
         }
         case 13u: {
-            // case 18: lone corner (section 3, case 18; rsmss.ron:384)
+            // case 18: lone corner (section 3, case 18; rsmss.ron:496)
             let F22 = select((1.0 + py) - dH, (2.0 - py) - dH, V == RSMSS_V_BOTTOM);
             return RsmssResult(clamp(F22, 0.0, 1.0), 18u);
         }
         case 14u: {
-            // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:378)
+            // case 17: corner of a horizontal edge: take H as none (section 3, case 17; rsmss.ron:490)
             let F20 = select(py, 1.0 - py, V == RSMSS_V_BOTTOM);
             let F22 = select((1.0 + py) - dH, (2.0 - py) - dH, V == RSMSS_V_BOTTOM);
             return RsmssResult(clamp(select(F22, F20, tH == RSMSS_TH_DUAL_POSITIVE), 0.0, 1.0), 17u);
         }
         case 15u: {
-            // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:372)
+            // case 16: corner of a vertical edge: take V as none (section 3, case 16; rsmss.ron:484)
             let u = select(1.0 - px, px, H == RSMSS_H_LEFT);
             let F23 = select((2.0 - px) - dV, (1.0 + px) - dV, H == RSMSS_H_LEFT);
             return RsmssResult(clamp(select(F23, u, tV == RSMSS_TH_DUAL_POSITIVE), 0.0, 1.0), 16u);
         }
         case 16u: {
-            // case 19: two edges meet: the darker one (section 3, case 19; rsmss.ron:390)
+            // case 19: two edges meet: the darker one (section 3, case 19; rsmss.ron:503)
             let u = select(1.0 - px, px, H == RSMSS_H_LEFT);
             let F23 = select((2.0 - px) - dV, (1.0 + px) - dV, H == RSMSS_H_LEFT);
             let F20 = select(py, 1.0 - py, V == RSMSS_V_BOTTOM);
@@ -1120,24 +1120,24 @@ fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: RsmssSite)
             return RsmssResult(clamp(min(select(F23, u, tV == RSMSS_TH_DUAL_POSITIVE), select(F22, F20, tH == RSMSS_TH_DUAL_POSITIVE)), 0.0, 1.0), 19u);
         }
         case 17u: {
-            // case 26: lone corner (section 3, case 26; rsmss.ron:436)
+            // case 26: lone corner (section 3, case 26; rsmss.ron:552)
             let F30 = select(dH - py, (py + dH) - 1.0, V == RSMSS_V_BOTTOM);
             return RsmssResult(clamp(F30, 0.0, 1.0), 26u);
         }
         case 18u: {
-            // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:427)
+            // case 25: corner of a horizontal edge: take H as none (section 3, case 25; rsmss.ron:543)
             let F28 = select(1.0 - py, py, V == RSMSS_V_BOTTOM);
             let F30 = select(dH - py, (py + dH) - 1.0, V == RSMSS_V_BOTTOM);
             return RsmssResult(clamp(select(F30, F28, tH == RSMSS_TH_DUAL_POSITIVE), 0.0, 1.0), 25u);
         }
         case 19u: {
-            // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:418)
+            // case 24: corner of a vertical edge: take V as none (section 3, case 24; rsmss.ron:534)
             let F29 = select(px, 1.0 - px, H == RSMSS_H_LEFT);
             let F31 = select((px + dV) - 1.0, dV - px, H == RSMSS_H_LEFT);
             return RsmssResult(clamp(select(F31, F29, tV == RSMSS_TH_DUAL_POSITIVE), 0.0, 1.0), 24u);
         }
         case 20u: {
-            // case 27: two edges meet: the lighter one (section 3, case 27; rsmss.ron:442)
+            // case 27: two edges meet: the lighter one (section 3, case 27; rsmss.ron:559)
             let F29 = select(px, 1.0 - px, H == RSMSS_H_LEFT);
             let F31 = select((px + dV) - 1.0, dV - px, H == RSMSS_H_LEFT);
             let F28 = select(1.0 - py, py, V == RSMSS_V_BOTTOM);
@@ -1147,20 +1147,20 @@ fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: RsmssSite)
         case 21u: {
             let d_cb_v = rsmss_fetch_d_cb_v(site);
             if (d_cb_v == RSMSS_V_NONE) {
-                // case 10, line 1: the tip of a horizontal gap (section 3, case 10; rsmss.ron:289)
+                // case 10, line 1: the tip of a horizontal gap (section 3, case 10; rsmss.ron:365)
                 return RsmssResult(clamp(1.0 - dH, 0.0, 1.0), 10u);
             }
             if (d_cb_v == RSMSS_V_TOP) {
-                // case 10, line 2: the tip of a horizontal gap (section 3, case 10; rsmss.ron:290)
+                // case 10, line 2: the tip of a horizontal gap (section 3, case 10; rsmss.ron:366)
                 let u = select(1.0 - px, px, H == RSMSS_H_LEFT);
                 return RsmssResult(clamp(min(u, (1.0 + py) - dH), 0.0, 1.0), 10u);
             }
             if (d_cb_v == RSMSS_V_BOTTOM) {
-                // case 10, line 3: the tip of a horizontal gap (section 3, case 10; rsmss.ron:291)
+                // case 10, line 3: the tip of a horizontal gap (section 3, case 10; rsmss.ron:367)
                 let u = select(1.0 - px, px, H == RSMSS_H_LEFT);
                 return RsmssResult(clamp(min(u, (2.0 - py) - dH), 0.0, 1.0), 10u);
             }
-            // case 10, line 4: the tip of a horizontal gap (section 3, case 10; rsmss.ron:292)
+            // case 10, line 4: the tip of a horizontal gap (section 3, case 10; rsmss.ron:368)
             let u = select(1.0 - px, px, H == RSMSS_H_LEFT);
             return RsmssResult(clamp(u, 0.0, 1.0), 10u);
         }
@@ -1168,120 +1168,120 @@ fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: RsmssSite)
             if (H == RSMSS_H_LEFT) {
                 let n_right = rsmss_fetch_n_right(site);
                 if (n_right == RSMSS_V_BOTH) {
-                    // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:240)
+                    // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:285)
                     return RsmssResult(clamp(min(min((1.0 + py) - dH, (2.0 - py) - dH), px), 0.0, 1.0), 7u);
                 }
                 if (n_right == RSMSS_V_TOP) {
-                    // case 7, line 2: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:241)
+                    // case 7, line 2: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:286)
                     return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 7u);
                 }
                 if (n_right == RSMSS_V_BOTTOM) {
-                    // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:243)
+                    // case 7, line 4: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:288)
                     return RsmssResult(clamp(px - py, 0.0, 1.0), 7u);
                 }
-                // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:237)
+                // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:282)
                 return RsmssResult(1.0, 7u);
             }
             let n_left = rsmss_fetch_n_left(site);
             if (n_left == RSMSS_V_BOTH) {
-                // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:240)
+                // case 7, line 1: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:285)
                 return RsmssResult(clamp(min(min((1.0 + py) - dH, (2.0 - py) - dH), 1.0 - px), 0.0, 1.0), 7u);
             }
             if (n_left == RSMSS_V_TOP) {
-                // case 7, line 3: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:242)
+                // case 7, line 3: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:287)
                 return RsmssResult(clamp(py - px, 0.0, 1.0), 7u);
             }
             if (n_left == RSMSS_V_BOTTOM) {
-                // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:244)
+                // case 7, line 5: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:289)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 7u);
             }
-            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:237)
+            // case 7, no line applies, so the default: the closed end of a horizontal gap (section 3, case 7; rsmss.ron:282)
             return RsmssResult(1.0, 7u);
         }
         case 23u: {
             if (H == RSMSS_H_LEFT) {
                 let n_right = rsmss_fetch_n_right(site);
                 if (n_right == RSMSS_V_NONE) {
-                    // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:345)
+                    // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:440)
                     return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
                 }
                 if (n_right == RSMSS_V_BOTTOM) {
-                    // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:346)
+                    // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:441)
                     let B_v = select((dH + py) - 1.0, py, tH == RSMSS_TH_DUAL_POSITIVE);
                     return RsmssResult(clamp(max(1.0 - px, B_v), 0.0, 1.0), 14u);
                 }
                 if (n_right == RSMSS_V_TOP) {
-                    // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:347)
+                    // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:442)
                     let A_v = select(dH - py, 1.0 - py, tH == RSMSS_TH_DUAL_POSITIVE);
                     return RsmssResult(clamp(max(1.0 - px, A_v), 0.0, 1.0), 14u);
                 }
                 let d_cb_v = rsmss_fetch_d_cb_v(site);
                 if (d_cb_v == RSMSS_V_NONE) {
-                    // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:348)
+                    // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:443)
                     return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
                 }
                 if (d_cb_v == RSMSS_V_TOP) {
-                    // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:349)
+                    // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:444)
                     return RsmssResult(clamp(max(1.0 - px, 1.0 - py), 0.0, 1.0), 14u);
                 }
                 if (d_cb_v == RSMSS_V_BOTTOM) {
-                    // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:350)
+                    // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:445)
                     return RsmssResult(clamp(max(1.0 - px, py), 0.0, 1.0), 14u);
                 }
-                // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:342)
+                // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:437)
                 return RsmssResult(0.0, 14u);
             }
             let n_left = rsmss_fetch_n_left(site);
             if (n_left == RSMSS_V_NONE) {
-                // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:345)
+                // case 14, line 1: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:440)
                 return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
             }
             if (n_left == RSMSS_V_BOTTOM) {
-                // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:346)
+                // case 14, line 2: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:441)
                 let B_v = select((dH + py) - 1.0, py, tH == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(max(1.0 - (1.0 - px), B_v), 0.0, 1.0), 14u);
             }
             if (n_left == RSMSS_V_TOP) {
-                // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:347)
+                // case 14, line 3: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:442)
                 let A_v = select(dH - py, 1.0 - py, tH == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(max(1.0 - (1.0 - px), A_v), 0.0, 1.0), 14u);
             }
             let d_cb_v = rsmss_fetch_d_cb_v(site);
             if (d_cb_v == RSMSS_V_NONE) {
-                // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:348)
+                // case 14, line 4: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:443)
                 return RsmssResult(clamp(dH, 0.0, 1.0), 14u);
             }
             if (d_cb_v == RSMSS_V_TOP) {
-                // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:349)
+                // case 14, line 5: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:444)
                 return RsmssResult(clamp(max(1.0 - (1.0 - px), 1.0 - py), 0.0, 1.0), 14u);
             }
             if (d_cb_v == RSMSS_V_BOTTOM) {
-                // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:350)
+                // case 14, line 6: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:445)
                 return RsmssResult(clamp(max(1.0 - (1.0 - px), py), 0.0, 1.0), 14u);
             }
-            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:342)
+            // case 14, no line applies, so the default: the end of a thin horizontal shadow (section 3, case 14; rsmss.ron:437)
             return RsmssResult(0.0, 14u);
         }
         case 24u: {
             let d_cb_top = rsmss_fetch_d_cb_top(site);
             if (d_cb_top == RSMSS_H_NONE) {
-                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:274)
+                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:341)
                 return RsmssResult(clamp(1.0 - dV, 0.0, 1.0), 9u);
             }
             let d_cb_bottom = rsmss_fetch_d_cb_bottom(site);
             if (d_cb_bottom == RSMSS_H_NONE) {
-                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:274)
+                // case 9, line 1: inside a vertical gap (section 3, case 9; rsmss.ron:341)
                 return RsmssResult(clamp(1.0 - dV, 0.0, 1.0), 9u);
             }
             if ((d_cb_top == RSMSS_H_LEFT) || (d_cb_bottom == RSMSS_H_LEFT)) {
-                // case 9, line 2: inside a vertical gap (section 3, case 9; rsmss.ron:275)
+                // case 9, line 2: inside a vertical gap (section 3, case 9; rsmss.ron:342)
                 return RsmssResult(clamp((1.0 + px) - dV, 0.0, 1.0), 9u);
             }
             if ((d_cb_top == RSMSS_H_RIGHT) || (d_cb_bottom == RSMSS_H_RIGHT)) {
-                // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:276)
+                // case 9, line 3: inside a vertical gap (section 3, case 9; rsmss.ron:343)
                 return RsmssResult(clamp((2.0 - px) - dV, 0.0, 1.0), 9u);
             }
-            // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:271)
+            // case 9, no line applies, so the default: inside a vertical gap (section 3, case 9; rsmss.ron:338)
             return RsmssResult(1.0, 9u);
         }
         case 25u: {
@@ -1289,76 +1289,76 @@ fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: RsmssSite)
             if (n_top == RSMSS_H_BOTH) {
                 let n_bottom = rsmss_fetch_n_bottom(site);
                 if (n_bottom == RSMSS_H_BOTH) {
-                    // case 4, line 1: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:188)
+                    // case 4, line 1: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:193)
                     return RsmssResult(0.0, 4u);
                 }
                 if (n_bottom == RSMSS_H_LEFT) {
-                    // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:189)
+                    // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:194)
                     return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 4u);
                 }
                 if (n_bottom == RSMSS_H_RIGHT) {
-                    // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
+                    // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:195)
                     return RsmssResult(clamp(py - px, 0.0, 1.0), 4u);
                 }
-                // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:185)
+                // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
                 return RsmssResult(1.0, 4u);
             }
             let n_bottom = rsmss_fetch_n_bottom(site);
             if (n_bottom == RSMSS_H_LEFT) {
-                // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:189)
+                // case 4, line 2: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:194)
                 return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 4u);
             }
             if (n_bottom == RSMSS_H_RIGHT) {
-                // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
+                // case 4, line 3: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:195)
                 return RsmssResult(clamp(py - px, 0.0, 1.0), 4u);
             }
             if (n_top == RSMSS_H_LEFT) {
-                // case 4, line 4: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:191)
+                // case 4, line 4: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:196)
                 return RsmssResult(clamp(px - py, 0.0, 1.0), 4u);
             }
             if (n_top == RSMSS_H_RIGHT) {
-                // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:192)
+                // case 4, line 5: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:197)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 4u);
             }
-            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:185)
+            // case 4, no line applies, so the default: a vertical gap, one texel wide and long (section 3, case 4; rsmss.ron:190)
             return RsmssResult(1.0, 4u);
         }
         case 26u: {
             let d_cb_h = rsmss_fetch_d_cb_h(site);
             if (d_cb_h == RSMSS_H_NONE) {
-                // case 13, line 1: inside a thin vertical shadow (section 3, case 13; rsmss.ron:335)
+                // case 13, line 1: inside a thin vertical shadow (section 3, case 13; rsmss.ron:426)
                 return RsmssResult(clamp(dV, 0.0, 1.0), 13u);
             }
             if (d_cb_h == RSMSS_H_LEFT) {
-                // case 13, line 2: inside a thin vertical shadow (section 3, case 13; rsmss.ron:336)
+                // case 13, line 2: inside a thin vertical shadow (section 3, case 13; rsmss.ron:427)
                 let A_h = select(dV - px, 1.0 - px, tV == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(A_h, 0.0, 1.0), 13u);
             }
             if (d_cb_h == RSMSS_H_RIGHT) {
-                // case 13, line 3: inside a thin vertical shadow (section 3, case 13; rsmss.ron:337)
+                // case 13, line 3: inside a thin vertical shadow (section 3, case 13; rsmss.ron:428)
                 let B_h = select((dV + px) - 1.0, px, tV == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(B_h, 0.0, 1.0), 13u);
             }
-            // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:332)
+            // case 13, no line applies, so the default: inside a thin vertical shadow (section 3, case 13; rsmss.ron:423)
             return RsmssResult(0.0, 13u);
         }
         case 27u: {
             let d_cb_h = rsmss_fetch_d_cb_h(site);
             if (d_cb_h == RSMSS_H_NONE) {
-                // case 8, line 1: the tip of a vertical gap (section 3, case 8; rsmss.ron:257)
+                // case 8, line 1: the tip of a vertical gap (section 3, case 8; rsmss.ron:306)
                 return RsmssResult(clamp(1.0 - dV, 0.0, 1.0), 8u);
             }
             if (d_cb_h == RSMSS_H_RIGHT) {
-                // case 8, line 2: the tip of a vertical gap (section 3, case 8; rsmss.ron:258)
+                // case 8, line 2: the tip of a vertical gap (section 3, case 8; rsmss.ron:307)
                 let w = select(1.0 - py, py, V == RSMSS_V_TOP);
                 return RsmssResult(clamp(min(w, (2.0 - px) - dV), 0.0, 1.0), 8u);
             }
             if (d_cb_h == RSMSS_H_LEFT) {
-                // case 8, line 3: the tip of a vertical gap (section 3, case 8; rsmss.ron:259)
+                // case 8, line 3: the tip of a vertical gap (section 3, case 8; rsmss.ron:308)
                 let w = select(1.0 - py, py, V == RSMSS_V_TOP);
                 return RsmssResult(clamp(min(w, (1.0 + px) - dV), 0.0, 1.0), 8u);
             }
-            // case 8, line 4: the tip of a vertical gap (section 3, case 8; rsmss.ron:260)
+            // case 8, line 4: the tip of a vertical gap (section 3, case 8; rsmss.ron:309)
             let w = select(1.0 - py, py, V == RSMSS_V_TOP);
             return RsmssResult(clamp(w, 0.0, 1.0), 8u);
         }
@@ -1366,107 +1366,107 @@ fn rsmss_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32, site: RsmssSite)
             if (V == RSMSS_V_TOP) {
                 let n_bottom = rsmss_fetch_n_bottom(site);
                 if (n_bottom == RSMSS_H_BOTH) {
-                    // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:206)
+                    // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:221)
                     return RsmssResult(clamp(min(min((1.0 + px) - dV, (2.0 - px) - dV), py), 0.0, 1.0), 5u);
                 }
                 if (n_bottom == RSMSS_H_LEFT) {
-                    // case 5, line 2: the closed end of a vertical gap (section 3, case 5; rsmss.ron:207)
+                    // case 5, line 2: the closed end of a vertical gap (section 3, case 5; rsmss.ron:222)
                     return RsmssResult(clamp((px + py) - 1.0, 0.0, 1.0), 5u);
                 }
                 if (n_bottom == RSMSS_H_RIGHT) {
-                    // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:208)
+                    // case 5, line 3: the closed end of a vertical gap (section 3, case 5; rsmss.ron:223)
                     return RsmssResult(clamp(py - px, 0.0, 1.0), 5u);
                 }
-                // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:203)
+                // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:218)
                 return RsmssResult(1.0, 5u);
             }
             let n_top = rsmss_fetch_n_top(site);
             if (n_top == RSMSS_H_BOTH) {
-                // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:206)
+                // case 5, line 1: the closed end of a vertical gap (section 3, case 5; rsmss.ron:221)
                 return RsmssResult(clamp(min(min((1.0 + px) - dV, (2.0 - px) - dV), 1.0 - py), 0.0, 1.0), 5u);
             }
             if (n_top == RSMSS_H_LEFT) {
-                // case 5, line 4: the closed end of a vertical gap (section 3, case 5; rsmss.ron:209)
+                // case 5, line 4: the closed end of a vertical gap (section 3, case 5; rsmss.ron:224)
                 return RsmssResult(clamp(px - py, 0.0, 1.0), 5u);
             }
             if (n_top == RSMSS_H_RIGHT) {
-                // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:210)
+                // case 5, line 5: the closed end of a vertical gap (section 3, case 5; rsmss.ron:225)
                 return RsmssResult(clamp((1.0 - px) - py, 0.0, 1.0), 5u);
             }
-            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:203)
+            // case 5, no line applies, so the default: the closed end of a vertical gap (section 3, case 5; rsmss.ron:218)
             return RsmssResult(1.0, 5u);
         }
         case 29u: {
             if (V == RSMSS_V_TOP) {
                 let n_bottom = rsmss_fetch_n_bottom(site);
                 if (n_bottom == RSMSS_H_NONE) {
-                    // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:319)
+                    // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:397)
                     return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
                 }
                 if (n_bottom == RSMSS_H_RIGHT) {
-                    // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:320)
+                    // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:398)
                     let B_h = select((dV + px) - 1.0, px, tV == RSMSS_TH_DUAL_POSITIVE);
                     return RsmssResult(clamp(max(1.0 - py, B_h), 0.0, 1.0), 12u);
                 }
                 if (n_bottom == RSMSS_H_LEFT) {
-                    // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:321)
+                    // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:399)
                     let A_h = select(dV - px, 1.0 - px, tV == RSMSS_TH_DUAL_POSITIVE);
                     return RsmssResult(clamp(max(1.0 - py, A_h), 0.0, 1.0), 12u);
                 }
                 let d_cb_h = rsmss_fetch_d_cb_h(site);
                 if (d_cb_h == RSMSS_H_NONE) {
-                    // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:322)
+                    // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:400)
                     return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
                 }
                 if (d_cb_h == RSMSS_H_LEFT) {
-                    // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:323)
+                    // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:401)
                     return RsmssResult(clamp(max(1.0 - py, 1.0 - px), 0.0, 1.0), 12u);
                 }
                 if (d_cb_h == RSMSS_H_RIGHT) {
-                    // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:324)
+                    // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:402)
                     return RsmssResult(clamp(max(1.0 - py, px), 0.0, 1.0), 12u);
                 }
-                // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:316)
+                // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:394)
                 return RsmssResult(0.0, 12u);
             }
             let n_top = rsmss_fetch_n_top(site);
             if (n_top == RSMSS_H_NONE) {
-                // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:319)
+                // case 12, line 1: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:397)
                 return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
             }
             if (n_top == RSMSS_H_RIGHT) {
-                // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:320)
+                // case 12, line 2: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:398)
                 let B_h = select((dV + px) - 1.0, px, tV == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(max(1.0 - (1.0 - py), B_h), 0.0, 1.0), 12u);
             }
             if (n_top == RSMSS_H_LEFT) {
-                // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:321)
+                // case 12, line 3: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:399)
                 let A_h = select(dV - px, 1.0 - px, tV == RSMSS_TH_DUAL_POSITIVE);
                 return RsmssResult(clamp(max(1.0 - (1.0 - py), A_h), 0.0, 1.0), 12u);
             }
             let d_cb_h = rsmss_fetch_d_cb_h(site);
             if (d_cb_h == RSMSS_H_NONE) {
-                // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:322)
+                // case 12, line 4: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:400)
                 return RsmssResult(clamp(dV, 0.0, 1.0), 12u);
             }
             if (d_cb_h == RSMSS_H_LEFT) {
-                // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:323)
+                // case 12, line 5: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:401)
                 return RsmssResult(clamp(max(1.0 - (1.0 - py), 1.0 - px), 0.0, 1.0), 12u);
             }
             if (d_cb_h == RSMSS_H_RIGHT) {
-                // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:324)
+                // case 12, line 6: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:402)
                 return RsmssResult(clamp(max(1.0 - (1.0 - py), px), 0.0, 1.0), 12u);
             }
-            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:316)
+            // case 12, no line applies, so the default: the end of a thin vertical shadow (section 3, case 12; rsmss.ron:394)
             return RsmssResult(0.0, 12u);
         }
         case 30u: {
-            // case 2: a single lit texel: close it (section 3, case 2; rsmss.ron:177)
+            // case 2: a single lit texel: close it (section 3, case 2; rsmss.ron:182)
             return RsmssResult(0.0, 2u);
         }
         default: {}
     }
-    // case 3: a single shadowed texel: remove it (section 3, case 3; rsmss.ron:181)
+    // case 3: a single shadowed texel: remove it (section 3, case 3; rsmss.ron:186)
     return RsmssResult(1.0, 3u);
 }
 

@@ -2,7 +2,7 @@
 // Shadow map silhouette revectorization: visibility of a lit fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  meaning 1 eabf14c2ab26a863, 12 cases
-// Inputs: fnv1a 09b16ea040e18b1b, of texts, weights and options
+// Inputs: fnv1a ae940fe14a350093, of texts, weights and options
 // Plan:   switch
 // Weight: profile smsr.ron, 13113 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Proof:  equal to the table on 576 states, 596 paths; the same operations on each
@@ -93,72 +93,72 @@ pub fn smsr_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32) -> SmsrResult
             return SmsrResult { value: 1.0, case_id: SMSR_DEFAULT };
         }
         2 => {
-            // case 2: shadow at both ends: close the edge (section 2, case 2; smsr.ron:82)
+            // case 2: shadow at both ends: close the edge (section 2, case 2; smsr.ron:83)
             return SmsrResult { value: 0.0, case_id: 2 };
         }
         3 => {
             if py < dH {
-                // case 10, line 1: shadow above (section 2, case 10; smsr.ron:121)
+                // case 10, line 1: shadow above (section 2, case 10; smsr.ron:124)
                 return SmsrResult { value: 0.0, case_id: 10 };
             }
-            // case 10, line 2: shadow above (section 2, case 10; smsr.ron:121)
+            // case 10, line 2: shadow above (section 2, case 10; smsr.ron:124)
             return SmsrResult { value: 1.0, case_id: 10 };
         }
         4 => {
             if (1.0 - py) < dH {
-                // case 9, line 1: shadow below (section 2, case 9; smsr.ron:117)
+                // case 9, line 1: shadow below (section 2, case 9; smsr.ron:120)
                 return SmsrResult { value: 0.0, case_id: 9 };
             }
-            // case 9, line 2: shadow below (section 2, case 9; smsr.ron:117)
+            // case 9, line 2: shadow below (section 2, case 9; smsr.ron:120)
             return SmsrResult { value: 1.0, case_id: 9 };
         }
         5 => {
-            // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:86)
+            // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:87)
             return SmsrResult { value: 0.0, case_id: 3 };
         }
         6 => {
             if (1.0 - px) < dV {
-                // case 12, line 1: shadow on the right (section 2, case 12; smsr.ron:129)
+                // case 12, line 1: shadow on the right (section 2, case 12; smsr.ron:132)
                 return SmsrResult { value: 0.0, case_id: 12 };
             }
-            // case 12, line 2: shadow on the right (section 2, case 12; smsr.ron:129)
+            // case 12, line 2: shadow on the right (section 2, case 12; smsr.ron:132)
             return SmsrResult { value: 1.0, case_id: 12 };
         }
         7 => {
             if (1.0 - dH) < (1.0 - py) {
-                // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:106)
+                // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:108)
                 return SmsrResult { value: 0.0, case_id: 7 };
             }
-            // case 7, line 2: lone corner at the top (section 2, case 7; smsr.ron:106)
+            // case 7, line 2: lone corner at the top (section 2, case 7; smsr.ron:108)
             return SmsrResult { value: 1.0, case_id: 7 };
         }
         8 => {
-            // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:95)
+            // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:96)
             return SmsrResult { value: if V == SMSR_V_BOTTOM { if (1.0 - py) < dH { 0.0 } else { 1.0 } } else { if py < dH { 0.0 } else { 1.0 } }, case_id: 5 };
         }
         9 => {
-            // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:90)
+            // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:91)
             return SmsrResult { value: if H == SMSR_H_LEFT { if px < dV { 0.0 } else { 1.0 } } else { if (1.0 - px) < dV { 0.0 } else { 1.0 } }, case_id: 4 };
         }
         10 => {
-            // case 8: two edges meet: the darker one (section 2, case 8; smsr.ron:112)
+            // case 8: two edges meet: the darker one (section 2, case 8; smsr.ron:115)
             return SmsrResult { value: f32::min(if V == SMSR_V_BOTTOM { if (1.0 - py) < dH { 0.0 } else { 1.0 } } else { if py < dH { 0.0 } else { 1.0 } }, if H == SMSR_H_LEFT { if px < dV { 0.0 } else { 1.0 } } else { if (1.0 - px) < dV { 0.0 } else { 1.0 } }), case_id: 8 };
         }
         11 => {
             if (1.0 - dH) < py {
-                // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:100)
+                // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:101)
                 return SmsrResult { value: 0.0, case_id: 6 };
             }
-            // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:100)
+            // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:101)
             return SmsrResult { value: 1.0, case_id: 6 };
         }
         _ => {}
     }
     if px < dV {
-        // case 11, line 1: shadow on the left (section 2, case 11; smsr.ron:125)
+        // case 11, line 1: shadow on the left (section 2, case 11; smsr.ron:128)
         return SmsrResult { value: 0.0, case_id: 11 };
     }
-    // case 11, line 2: shadow on the left (section 2, case 11; smsr.ron:125)
+    // case 11, line 2: shadow on the left (section 2, case 11; smsr.ron:128)
     return SmsrResult { value: 1.0, case_id: 11 };
 }
 
@@ -330,7 +330,7 @@ pub const COLUMNS: &str = r#"// Generated by umbrage 0.1.0 from smsr.ron; do not
 // Shadow map silhouette revectorization: visibility of a lit fragment
 // Source: Macedo and Apolinario, Revectorization-Based Shadow Mapping, Graphics Interface 2016, supplement, section 2
 // Table:  meaning 1 eabf14c2ab26a863, 12 cases
-// Inputs: fnv1a 09b16ea040e18b1b, of texts, weights and options
+// Inputs: fnv1a ae940fe14a350093, of texts, weights and options
 // Plan:   switch
 // Weight: profile smsr.ron, 13113 evaluations of fence, foliage, lattice, outdoor, slope, teapot, text
 // Proof:  equal to the table on 576 states, 596 paths; the same operations on each
@@ -415,72 +415,72 @@ fn smsr_key_case(key: u32, dH: f32, dV: f32, px: f32, py: f32) -> SmsrResult {
             return SmsrResult(1.0, SMSR_DEFAULT);
         }
         case 2u: {
-            // case 2: shadow at both ends: close the edge (section 2, case 2; smsr.ron:82)
+            // case 2: shadow at both ends: close the edge (section 2, case 2; smsr.ron:83)
             return SmsrResult(0.0, 2u);
         }
         case 3u: {
             if (py < dH) {
-                // case 10, line 1: shadow above (section 2, case 10; smsr.ron:121)
+                // case 10, line 1: shadow above (section 2, case 10; smsr.ron:124)
                 return SmsrResult(0.0, 10u);
             }
-            // case 10, line 2: shadow above (section 2, case 10; smsr.ron:121)
+            // case 10, line 2: shadow above (section 2, case 10; smsr.ron:124)
             return SmsrResult(1.0, 10u);
         }
         case 4u: {
             if ((1.0 - py) < dH) {
-                // case 9, line 1: shadow below (section 2, case 9; smsr.ron:117)
+                // case 9, line 1: shadow below (section 2, case 9; smsr.ron:120)
                 return SmsrResult(0.0, 9u);
             }
-            // case 9, line 2: shadow below (section 2, case 9; smsr.ron:117)
+            // case 9, line 2: shadow below (section 2, case 9; smsr.ron:120)
             return SmsrResult(1.0, 9u);
         }
         case 5u: {
-            // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:86)
+            // case 3: shadow on both sides: close the gap (section 2, case 3; smsr.ron:87)
             return SmsrResult(0.0, 3u);
         }
         case 6u: {
             if ((1.0 - px) < dV) {
-                // case 12, line 1: shadow on the right (section 2, case 12; smsr.ron:129)
+                // case 12, line 1: shadow on the right (section 2, case 12; smsr.ron:132)
                 return SmsrResult(0.0, 12u);
             }
-            // case 12, line 2: shadow on the right (section 2, case 12; smsr.ron:129)
+            // case 12, line 2: shadow on the right (section 2, case 12; smsr.ron:132)
             return SmsrResult(1.0, 12u);
         }
         case 7u: {
             if ((1.0 - dH) < (1.0 - py)) {
-                // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:106)
+                // case 7, line 1: lone corner at the top (section 2, case 7; smsr.ron:108)
                 return SmsrResult(0.0, 7u);
             }
-            // case 7, line 2: lone corner at the top (section 2, case 7; smsr.ron:106)
+            // case 7, line 2: lone corner at the top (section 2, case 7; smsr.ron:108)
             return SmsrResult(1.0, 7u);
         }
         case 8u: {
-            // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:95)
+            // case 5: corner of a horizontal edge: take H as none (section 2, case 5; smsr.ron:96)
             return SmsrResult(select(select(1.0, 0.0, py < dH), select(1.0, 0.0, (1.0 - py) < dH), V == SMSR_V_BOTTOM), 5u);
         }
         case 9u: {
-            // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:90)
+            // case 4: corner of a vertical edge: take V as none (section 2, case 4; smsr.ron:91)
             return SmsrResult(select(select(1.0, 0.0, (1.0 - px) < dV), select(1.0, 0.0, px < dV), H == SMSR_H_LEFT), 4u);
         }
         case 10u: {
-            // case 8: two edges meet: the darker one (section 2, case 8; smsr.ron:112)
+            // case 8: two edges meet: the darker one (section 2, case 8; smsr.ron:115)
             return SmsrResult(min(select(select(1.0, 0.0, py < dH), select(1.0, 0.0, (1.0 - py) < dH), V == SMSR_V_BOTTOM), select(select(1.0, 0.0, (1.0 - px) < dV), select(1.0, 0.0, px < dV), H == SMSR_H_LEFT)), 8u);
         }
         case 11u: {
             if ((1.0 - dH) < py) {
-                // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:100)
+                // case 6, line 1: lone corner at the bottom (section 2, case 6; smsr.ron:101)
                 return SmsrResult(0.0, 6u);
             }
-            // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:100)
+            // case 6, line 2: lone corner at the bottom (section 2, case 6; smsr.ron:101)
             return SmsrResult(1.0, 6u);
         }
         default: {}
     }
     if (px < dV) {
-        // case 11, line 1: shadow on the left (section 2, case 11; smsr.ron:125)
+        // case 11, line 1: shadow on the left (section 2, case 11; smsr.ron:128)
         return SmsrResult(0.0, 11u);
     }
-    // case 11, line 2: shadow on the left (section 2, case 11; smsr.ron:125)
+    // case 11, line 2: shadow on the left (section 2, case 11; smsr.ron:128)
     return SmsrResult(1.0, 11u);
 }
 
