@@ -109,7 +109,8 @@ impl Maker<'_, '_> {
             let (name, kind) = (self.inputs[place].name.clone(), self.inputs[place].kind);
             let hint = match kind {
                 Kind::Range(..) => match (&run, self.choices.below(3)) {
-                    (Some(run), 0) => format!("Position(\"{run}\")"),
+                    // Runs are rare, so one that is there is used.
+                    (Some(run), 0 | 2) => format!("Position(\"{run}\")"),
                     (_, 1) => "Down".to_owned(),
                     _ => "Across".to_owned(),
                 },
@@ -120,8 +121,8 @@ impl Maker<'_, '_> {
                 Kind::Levels(set) => {
                     let level = self.sets[set].levels[0].clone();
                     match (sided.clone(), self.choices.below(4)) {
-                        (_, 0) | (None, 1) => format!("Dark([\"{level}\"])"),
-                        (Some(sided), 1) => {
+                        (None, 0 | 1) => format!("Dark([\"{level}\"])"),
+                        (Some(sided), 0 | 1) => {
                             run = Some(name.clone());
                             format!("Run(along: \"{sided}\", ends: {{\"{level}\": {}}})", self.choices.below(3))
                         }

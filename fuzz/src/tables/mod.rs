@@ -243,7 +243,7 @@ mod tests {
 
     #[test]
     fn every_construct_is_made() {
-        let all: String = some(2500).map(|written| written.text).collect();
+        let all: String = some(6000).map(|written| written.text).collect();
         let functions = Operator::functions().map(|(name, _)| format!("{name}("));
         let missing: Vec<String> = LOOKS
             .iter()
