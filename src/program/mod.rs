@@ -400,6 +400,12 @@ impl Program {
         all.minus(used)
     }
 
+    /// The continuous inputs.
+    pub fn continuous(&self) -> InputSet {
+        let continuous = self.input_ids().filter(|(id, _)| self.levels(*id).is_none());
+        continuous.fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(id)))
+    }
+
     /// All inputs with their ids.
     pub fn input_ids(&self) -> impl Iterator<Item = (InputId, &Input)> {
         self.inputs.iter().enumerate().map(|(i, input)| (InputId::new(i), input))

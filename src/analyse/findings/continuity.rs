@@ -43,17 +43,12 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 let jumps = switches(study, inputs);
                 found.extend(report(study, continuity, jumps, &|space, set| {
                     let witness = space.witness(set)?;
-                    Some((words::at(program, &witness, all_numbers(program))?, None))
+                    Some((words::at(program, &witness, program.continuous())?, None))
                 }));
             }
         }
     }
     found
-}
-
-fn all_numbers(program: &Program) -> InputSet {
-    let continuous = program.input_ids().filter(|(id, _)| program.levels(*id).is_none());
-    continuous.fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(id)))
 }
 
 /// Finds the places at a border where the value is not that of the image across it.
@@ -114,7 +109,7 @@ fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
                 input.fetched.is_none() || stand_in || mapped || known[id.index()]
             })
             .collect();
-        let numbers = all_numbers(program);
+        let numbers = program.continuous();
         let shorten = |mut witness: Witness| {
             witness.levels.truncate(program.inputs.len());
             witness.numbers.truncate(program.inputs.len());

@@ -159,8 +159,7 @@ fn comes_to(program: &crate::program::Program, asker: &Asker, comparison: CondId
             point.holds(pool, row.guard) && !earlier
         }
     };
-    let admitted = program.assumptions.iter().all(|assumption| point.holds(pool, assumption.condition));
-    !before && here && admitted && point.asks(pool, asker.condition, comparison)
+    !before && here && point.is_admitted(program) && point.asks(pool, asker.condition, comparison)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::{Piece, Study};
-use crate::analyse::values::rounding::Rounding;
+use crate::analyse::values::rounding::{self, Rounding};
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
 
@@ -184,11 +184,9 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
     if study.space.is_void(holds) {
         let warning =
             warning.at(line.span, "its condition never holds where the case is taken").at(case.guard_span, "the guard");
-        let mut rounding = Rounding::new(&program.pool);
-        return match rounding.decides(line.condition) || rounding.decides(case.guard) {
-            true => {
-                warning.help("this is so over the real numbers; where f32 rounds, it may hold: compare with a distance")
-            }
+        let mut rounds = Rounding::new(&program.pool);
+        return match rounds.decides(line.condition) || rounds.decides(case.guard) {
+            true => warning.help(rounding::MAY_HOLD),
             false => warning.help("mend the condition, or remove the line"),
         };
     }

@@ -141,8 +141,7 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
             }
             let reached = |point: &Point| {
                 let outcome = point.outcome(program);
-                let admitted = program.assumptions.iter().all(|a| point.holds(&program.pool, a.condition));
-                admitted && (outcome.row, outcome.line) == (piece.row, piece.line)
+                point.is_admitted(program) && (outcome.row, outcome.line) == (piece.row, piece.line)
             };
             let asked = Asked { written: *written, reached: &reached };
             let (trouble, point, exact) = match search(study, set, *value, &asked) {

@@ -15,8 +15,7 @@ pub(in crate::analyse) const ANALYSIS: Analysis = Analysis { codes: &[codes::SET
 /// Looks at every line of every case that is written with numbers.
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
-    let numbers = program.input_ids().filter(|(id, _)| program.levels(*id).is_none());
-    let numbers = numbers.fold(InputSet::default(), |all, (id, _)| all.or(InputSet::one(id)));
+    let numbers = program.continuous();
     let mut found = Vec::new();
     for (row, case) in program.rows.iter().enumerate() {
         for (number, line) in case.lines.iter().enumerate() {
@@ -60,7 +59,7 @@ fn settled(study: &mut Study<'_>, (row, line): (usize, usize), component: usize,
         };
         known = Some(candidates.into_iter().find(|constant| {
             let constant = study.space.pool.number(*constant);
-            let different = study.space.different(&[value], &[constant]);
+            let different = study.space.unequal(&[value], &[constant]);
             let different = study.space.sets.and(set, different);
             study.space.is_void(different)
         })?);

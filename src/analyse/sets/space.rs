@@ -317,22 +317,27 @@ impl<'p> Space<'p> {
     }
 
     fn equal(&mut self, a: ExprId, b: ExprId) -> Set {
-        let different = self.different(&[a], &[b]);
+        let different = self.unequal(&[a], &[b]);
         self.sets.not(different)
     }
 
     /// The set where two results do not mean the same, of values without selections.
     pub(in crate::analyse) fn different(&mut self, a: &[ExprId], b: &[ExprId]) -> Set {
+        if !self.program.output.has_list() {
+            return self.unequal(a, b);
+        }
         let [a, b] = [a, b].map(|values| {
             let mut values = values.to_vec();
-            // Some are asked for a part of a result.
-            if values.len() == self.program.output.size() {
-                self.program.output.sort(&mut values, &|value| self.pool.constant(*value));
-            }
+            self.program.output.sort(&mut values, &|value| self.pool.constant(*value));
             values
         });
+        self.unequal(&a, &b)
+    }
+
+    /// The set where some of several numbers differ, of values without selections.
+    pub(in crate::analyse) fn unequal(&mut self, a: &[ExprId], b: &[ExprId]) -> Set {
         let mut result = Set::EMPTY;
-        for (a, b) in a.iter().zip(&b) {
+        for (a, b) in a.iter().zip(b) {
             if a == b {
                 continue;
             }

@@ -195,7 +195,8 @@ impl<'p> Study<'p> {
     }
 }
 
-fn assumed(space: &mut Space<'_>, view: View) -> Set {
+/// The set where all assumptions hold.
+pub(in crate::analyse) fn assumed(space: &mut Space<'_>, view: View) -> Set {
     let program = space.program;
     program.assumptions.iter().fold(Set::ALL, |set, assumption| {
         let holds = space.condition(assumption.condition, view);

@@ -74,8 +74,7 @@ impl Orbit {
             for number in along {
                 let from = &members[next];
                 let point = from.point.image(pool, &program.symmetries[*number]);
-                let occurs = program.assumptions.iter().all(|a| point.holds(pool, a.condition));
-                if !occurs {
+                if !point.is_admitted(program) {
                     continue;
                 }
                 let outcome = point.outcome(program);

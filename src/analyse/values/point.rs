@@ -67,6 +67,11 @@ impl Point {
         }
     }
 
+    /// Returns whether all assumptions hold here.
+    pub(in crate::analyse) fn is_admitted(&self, program: &Program) -> bool {
+        program.assumptions.iter().all(|assumption| self.holds(&program.pool, assumption.condition))
+    }
+
     /// Returns whether another condition is asked on the way to the outcome of this one.
     pub(in crate::analyse) fn asks(&self, pool: &Pool, condition: CondId, other: CondId) -> bool {
         if condition == other {

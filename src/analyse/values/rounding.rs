@@ -20,6 +20,10 @@ const MAX_CONSTANTS: usize = 16;
 /// Random numbers that are tried with each combination of levels.
 const DRAWS: usize = 5;
 
+/// The advice where something is said of the reals that `f32` may come to all the same.
+pub(in crate::analyse) const MAY_HOLD: &str =
+    "this is so over the real numbers; where f32 rounds, it may hold: compare with a distance";
+
 /// Multiples of a power of two up to a size: if they are few enough, `f32` has all of them.
 #[derive(Debug, Clone, Copy)]
 struct Grid {

@@ -95,6 +95,22 @@ impl Lowering<'_> {
         }
     }
 
+    /// Lowers an expression that must be a level of a set; `expected` says so where it is none.
+    pub(super) fn level_term(&mut self, set: SetId, expr: &Expr, env: &Env, expected: &str) -> Result<Arc<LevelTerm>> {
+        let term = self.term(expr, env, Expected::Level(set))?;
+        let error = match &term {
+            Term::Level(found, level) if *found == set => return Ok(level.clone()),
+            Term::Level(found, _) => {
+                let error = type_error(expr.span, &self.describe(&term), expected);
+                self.unlike(error, set, *found)
+            }
+            Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
+                type_error(expr.span, &self.describe(&term), expected)
+            }
+        };
+        Err(error)
+    }
+
     /// Lowers an expression where a level of a set is expected; the name of a level wins.
     fn level_operand(&mut self, set: SetId, expr: &Expr, env: &Env) -> Result<Term> {
         match self.literal_level(set, expr, env)? {

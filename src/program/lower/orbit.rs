@@ -138,8 +138,8 @@ impl<'t> Lowering<'t> {
     /// The row of an image.
     fn image(&mut self, case: &'t Case, element: &Element<'t>) -> Result<Row> {
         let (guard, lines, _) = self.row_parts(&case.id, &element.env)?;
-        let maps: Vec<ResultMap> = element.maps.iter().map(|map| (*map).clone()).collect();
-        self.row_of(case, guard, lines, &maps, &element.env, element.under.iter().map(|n| (*n).to_owned()).collect())
+        let under = element.under.iter().map(|name| (*name).to_owned()).collect();
+        self.row_of(case, guard, lines, &element.maps, &element.env, under)
     }
 
     /// Guard, conditions and values, without the order in which conditions are tested: rows that differ in no more

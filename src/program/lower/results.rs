@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::scope::Env;
-use super::terms::{Expected, Term, type_error};
+use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::LevelTerm;
@@ -119,19 +119,8 @@ impl Lowering<'_> {
             (Output::Enumeration(set), ResultMap::Expr(expr)) => {
                 let count = self.sets[set.0].count() as i64;
                 let table = self.tabulated(0..=count - 1, &whole, expr, env, |me, env| {
-                    match me.term(expr, env, Expected::Level(*set))? {
-                        Term::Level(found, term) if found == *set => {
-                            me.fixed_level(&term).map(i64::from).ok_or_else(|| depends(expr))
-                        }
-                        other @ (Term::Number(_)
-                        | Term::Vector(_)
-                        | Term::Bool(_)
-                        | Term::Level(..)
-                        | Term::List(_)
-                        | Term::Record(_)) => {
-                            Err(type_error(expr.span, &me.describe(&other), "expected a level of the output"))
-                        }
-                    }
+                    let level = me.level_term(*set, expr, env, "expected a level of the output")?;
+                    me.fixed_level(&level).map(i64::from).ok_or_else(|| depends(expr))
                 })?;
                 Ok(vec![self.renumbered(own[0], &table, &mut HashMap::new())])
             }

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::scope::Env;
-use super::terms::{Expected, Term, type_error};
+use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::domain::Domain;
@@ -39,7 +39,7 @@ impl<'t> Lowering<'t> {
         case: &'t Case,
         guard: CondId,
         lines: Vec<LoweredLine>,
-        maps: &[ResultMap],
+        maps: &[&ResultMap],
         env: &Env,
         under: Vec<String>,
     ) -> Result<Row> {
@@ -69,7 +69,7 @@ impl<'t> Lowering<'t> {
     }
 
     /// Applies the result maps of symmetries, one after the other.
-    fn apply_results(&mut self, maps: &[ResultMap], value: Term, span: Span, env: &Env) -> Result<Term> {
+    fn apply_results(&mut self, maps: &[&ResultMap], value: Term, span: Span, env: &Env) -> Result<Term> {
         maps.iter().try_fold(value, |value, map| self.apply_result(map, value, span, env))
     }
 
@@ -78,7 +78,7 @@ impl<'t> Lowering<'t> {
         &mut self,
         id: &Spanned<u32>,
         env: &Env,
-    ) -> Result<(CondId, Vec<LoweredLine>, Vec<ResultMap>)> {
+    ) -> Result<(CondId, Vec<LoweredLine>, Vec<&'t ResultMap>)> {
         let case = self.find_case(id)?;
         match &case.body {
             CaseBody::Rows { when, lines, .. } => {
@@ -99,7 +99,7 @@ impl<'t> Lowering<'t> {
                     let symmetry = self.find_symmetry(name)?;
                     let images = self.images(&symmetry.map, &inner)?;
                     inner = self.mapped_env(images, &inner);
-                    maps.splice(0..0, symmetry.result.clone());
+                    maps.splice(0..0, symmetry.result.as_ref());
                 }
                 let (guard, lines, mut before) = self.row_parts(base, &inner)?;
                 before.extend(maps);
@@ -230,23 +230,7 @@ impl<'t> Lowering<'t> {
                 if let Some(level) = self.literal_level(set, value, env)? {
                     return Ok(self.level_of(set, LevelTerm::Const(level)));
                 }
-                match self.term(value, env, Expected::Level(set))? {
-                    Term::Level(found, term) if found == set => Ok(Term::Level(set, term)),
-                    other @ (Term::Number(_)
-                    | Term::Vector(_)
-                    | Term::Bool(_)
-                    | Term::Level(..)
-                    | Term::List(_)
-                    | Term::Record(_)) => {
-                        let error = type_error(value.span, &self.describe(&other), "this input has other levels");
-                        Err(match other {
-                            Term::Level(found, _) => self.unlike(error, set, found),
-                            Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
-                                error
-                            }
-                        })
-                    }
-                }
+                Ok(Term::Level(set, self.level_term(set, value, env, "this input has other levels")?))
             }
         }
     }

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use crate::analyse::findings::{Analysis, Run};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::{Space, View};
+use crate::analyse::sets::study;
 use crate::analyse::values::point::Point;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
@@ -32,11 +33,7 @@ fn in_functions(program: &Program) -> Vec<Diagnostic> {
         let guard = space.condition(row.guard, View::PLAIN);
         unclaimed = space.sets.minus(unclaimed, guard);
     }
-    let mut assumed = Set::ALL;
-    for assumption in &program.assumptions {
-        let holds = space.condition(assumption.condition, View::PLAIN);
-        assumed = space.sets.and(assumed, holds);
-    }
+    let assumed = study::assumed(&mut space, View::PLAIN);
     let found = finding(&mut space, unclaimed, assumed);
     if space.is_too_large() { Vec::new() } else { found.into_iter().collect() }
 }

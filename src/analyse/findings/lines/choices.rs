@@ -10,7 +10,7 @@ use std::collections::{HashMap, HashSet};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::Study;
-use crate::analyse::values::rounding::Rounding;
+use crate::analyse::values::rounding::{self, Rounding};
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
 use crate::program::print::Printer;
@@ -142,9 +142,7 @@ fn finding(study: &mut Study<'_>, choice: &Choice, idle: &Idle) -> Diagnostic {
         }
     };
     match Rounding::new(&program.pool).decides(idle.condition) {
-        true => {
-            warning.help("this is so over the real numbers; where f32 rounds, it may hold: compare with a distance")
-        }
+        true => warning.help(rounding::MAY_HOLD),
         false => warning.help("remove this choice, or mend the guard"),
     }
 }
