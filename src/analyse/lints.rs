@@ -33,8 +33,13 @@ impl LintLevels {
             return Err(format!("there is no finding `{code}`; the findings are: {}", known.join(", ")));
         };
         let code = finding.code;
-        if code == codes::EXAMPLE_FAILS && level != LintLevel::Deny {
-            return Err(format!("{code} stays an error: an example that fails contradicts the table"));
+        let needed = match code {
+            codes::EXAMPLE_FAILS => Some("an example that fails contradicts the table"),
+            codes::OVERLONG => Some("generated code has no place for more items"),
+            _ => None,
+        };
+        if let Some(reason) = needed.filter(|_| level != LintLevel::Deny) {
+            return Err(format!("{code} stays an error: {reason}"));
         }
         self.0.push((code, level));
         Ok(())

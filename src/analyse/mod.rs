@@ -96,8 +96,32 @@ fn report_within(program: &Program, levels: &LintLevels, steps: u64) -> Findings
     }
     drop_duplicates(&mut found);
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
-    lints::sort(program, found, &left_out, levels)
+    let mut findings = lints::sort(program, found, &left_out, levels);
+    if !program.decided.is_empty() {
+        findings.open.retain(|finding| !OF_WHOLE_TABLES.contains(&finding.code));
+    }
+    findings
 }
+
+/// Codes of what deciding inputs may leave without use, or makes alike: nobody wrote that. The whole table is
+/// checked for it.
+const OF_WHOLE_TABLES: &[Code] = &[
+    codes::UNCOVERED,
+    codes::DEAD_CASE,
+    codes::UNUSED_INPUT,
+    codes::NO_LINE,
+    codes::LINES_CROSS,
+    codes::ORDER_MATTERS,
+    codes::NOT_REACHED,
+    codes::DEAD_LINE,
+    codes::SYMMETRY_ASSUMED,
+    codes::OUT_OF_RANGE,
+    codes::SETTLED,
+    codes::MERGEABLE,
+    codes::REPEATED,
+    codes::UNUSED_ALLOW,
+    codes::WIDE_ALLOW,
+];
 
 /// Drops findings of `numbers` about a division by zero that `singular` reports, too: of the same place,
 /// it knows the limit as well. And those of formulas that are one number, where that is beyond the clamp.

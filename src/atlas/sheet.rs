@@ -80,6 +80,7 @@ fn subtitle(program: &Program) -> String {
     let policy = match program.hit_policy {
         HitPolicy::First => "the first that matches counts",
         HitPolicy::Unique => "no two of them contradict",
+        HitPolicy::Collect => "the items of all that match",
     };
     let source = if program.origin.is_empty() { String::new() } else { format!("  ({})", program.origin) };
     format!("{} cases, {policy}; {} states{source}", program.rows.len(), program.states.count())

@@ -38,6 +38,8 @@ pub struct Request {
     pub levels: LintLevels,
     /// Names of [skeletons](crate::skeleton) to write beside the tables.
     pub skeletons: Vec<String>,
+    /// Inputs that are decided, as `input=level`: each table is made without them, with a name of its own.
+    pub fix: Vec<String>,
 }
 
 /// The result of a run.
@@ -180,7 +182,12 @@ fn collect(request: &Request) -> Batch {
                 continue;
             }
             read_imports(&table, &mut batch);
-            let built = one(&table, &evidence, &mut options, &request.levels, &mut batch);
+            // What a table declares for others is built with those.
+            if table.declares_only {
+                batch.keep(Program::check_all(&table));
+                continue;
+            }
+            let built = one(&table, &evidence, &mut options, request, &mut batch);
             let built = batch.keep(built);
             batch.messages.extend(built.iter().flat_map(|(_, built)| refused(built)));
             batch.tables.extend(built);
@@ -225,14 +232,20 @@ fn one(
     table: &Table,
     evidence: &Evidence<'_>,
     options: &mut Options,
-    levels: &LintLevels,
+    request: &Request,
     batch: &mut Batch,
 ) -> Result<(Vec<Program>, Built), Failure> {
-    let (name, source) = (&table.name.value, table.source.clone());
+    let source = table.source.clone();
+    let checked = Program::check_all(table)?;
+    let checked = match request.fix.as_slice() {
+        [] => checked,
+        decided => checked.iter().map(|program| program.fix(decided)).collect::<Result<_, _>>()?,
+    };
+    let name = checked.first().map_or(table.name.value.as_str(), Program::table);
     // Not every file system tells capitals apart.
     if let Some((other, built)) = batch.tables.iter().find(|(_, built)| built.table.eq_ignore_ascii_case(name)) {
         let other = other.first().map_or("", |program| program.source.name.as_str());
-        let (message, help) = match built.table == *name {
+        let (message, help) = match built.table == name {
             true => (
                 format!("`{other}` and this file both define the table `{name}`"),
                 "their output would go to the same folder; rename one",
@@ -247,9 +260,9 @@ fn one(
         };
         return Err(Failure::new(source, Diagnostic::error(codes::DUPLICATE, message).help(help)));
     }
-    let checked = Program::check_all(table)?;
     // Notes are for `check`: here they would hide what was built.
-    let findings: Vec<Diagnostic> = checked.iter().flat_map(|program| analyse::problems(program, levels)).collect();
+    let findings: Vec<Diagnostic> =
+        checked.iter().flat_map(|program| analyse::problems(program, &request.levels)).collect();
     let failed = findings.iter().any(|finding| finding.severity == Severity::Error);
     let findings = Failure { source, diagnostics: findings };
     if failed {

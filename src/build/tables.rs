@@ -99,6 +99,13 @@ impl Tables {
         self
     }
 
+    /// Decides an input, as in `b=entering`: each table is made without it, with a name of its own, `NAME_b_entering`.
+    /// Several inputs are decided one by one; for several permutations, compile several times.
+    pub fn fix(mut self, decision: impl Into<String>) -> Self {
+        self.request.fix.push(decision.into());
+        self
+    }
+
     /// Makes a plan of this shape; without any, `ordered`.
     pub fn plan(mut self, shape: Shape) -> Self {
         self.request.options.shapes.push(shape);

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::PathBuf;
 
+use super::fix::FixArguments;
 use super::messages::{Format, Report, plural};
 use super::plan::{self, PlanArgument};
 use super::watch::Watched;
@@ -58,6 +59,8 @@ pub(super) struct Arguments {
     watch: bool,
     #[command(flatten)]
     levels: levels::LevelArguments,
+    #[command(flatten)]
+    fix: FixArguments,
 }
 
 /// Builds every table. Nothing is written unless all of them are right.
@@ -120,6 +123,7 @@ impl Arguments {
             device: self.device.clone(),
             levels: self.levels.levels(),
             skeletons: self.skeleton.clone(),
+            fix: self.fix.words().to_vec(),
         }
     }
 }

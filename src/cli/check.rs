@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use super::fix::FixArguments;
 use super::messages;
 use super::messages::{Format, Report, plural};
 use super::{Outcome, Result, levels};
@@ -11,6 +12,7 @@ use crate::build;
 use crate::cli::output::stdout;
 use crate::diag::{Failure, Severity};
 use crate::program::Program;
+use crate::table::Table;
 
 /// Arguments of `umbrage check`.
 #[derive(clap::Args)]
@@ -20,6 +22,8 @@ pub(super) struct Arguments {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     levels: levels::LevelArguments,
+    #[command(flatten)]
+    fix: FixArguments,
 }
 
 /// Checks every table; a bad one does not keep the others from being checked.
@@ -36,7 +40,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
             }
         };
         for file in files {
-            outcome = outcome.max(table(&mut out, report, &file, &levels, path.is_dir())?);
+            outcome = outcome.max(table(&mut out, report, &file, (&levels, &arguments.fix), path.is_dir())?);
         }
     }
     out.flush()?;
@@ -44,9 +48,19 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 }
 
 /// Checks one table and says how that went. What is found in an exhibit is shown only if it was named.
-fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &LintLevels, walked: bool) -> Result<Outcome> {
-    let programs = match Program::read_all(file) {
-        Ok(programs) => programs,
+fn table(
+    out: &mut impl Write,
+    report: &Report,
+    file: &Path,
+    (levels, fix): (&LintLevels, &FixArguments),
+    walked: bool,
+) -> Result<Outcome> {
+    let checked = Table::read(file).and_then(|table| {
+        let programs = Program::check_all(&table)?.into_iter().map(|program| fix.apply(program));
+        Ok((programs.collect::<std::result::Result<Vec<_>, Failure>>()?, table))
+    });
+    let (programs, declared) = match checked {
+        Ok(checked) => checked,
         Err(failure) => {
             let outcome = show(out, report, &failure)?;
             if report.format == Format::Human {
@@ -56,7 +70,14 @@ fn table(out: &mut impl Write, report: &Report, file: &Path, levels: &LintLevels
             return Ok(outcome);
         }
     };
-    let Some(program) = programs.first() else { return Ok(Outcome::Clean) };
+    let Some(program) = programs.first() else {
+        if report.format == Format::Human {
+            let sets = plural(declared.levels.len(), "level set");
+            let constants = plural(declared.constants.len(), "constant");
+            writeln!(out, "ok    {}: {sets}, {constants}", declared.source.name)?;
+        }
+        return Ok(Outcome::Clean);
+    };
     let mut found = analyse::report(program, levels);
     for further in &programs[1..] {
         let more = analyse::report(further, levels);

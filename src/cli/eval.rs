@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::answers::{Answers, Writer};
 use super::args::{Backend, Machine};
+use super::fix::FixArguments;
 use super::input;
 use super::input::{Columns, Points, Problems};
 use super::messages::Report;
@@ -48,6 +49,8 @@ pub(super) struct Arguments {
     plan: Option<Shape>,
     #[command(flatten)]
     machine: Machine,
+    #[command(flatten)]
+    fix: FixArguments,
 }
 
 /// The executor that computes the answers.
@@ -64,6 +67,7 @@ enum Executor<'a> {
 /// Reads, evaluates and writes, a chunk of rows at a time.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
+    let program = arguments.fix.apply(program)?;
     refuse_double(arguments)?;
     let machine = arguments.machine.executor(Backend::Cpu, report)?;
     #[cfg(feature = "gpu")]

@@ -22,6 +22,9 @@ pub(super) struct Arguments {
     case: Option<u32>,
 }
 
+/// Expressions larger than this are not written out.
+const LEGIBLE: u32 = 400;
+
 /// Lists every case with its images, in the order in which they are tried.
 pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
     let program = Program::read(&arguments.table)?;
@@ -71,7 +74,10 @@ fn value(program: &Program, values: &[ExprId]) -> String {
         Some(constants) => show::expression(&program.output, &constants, Precision::F64),
         None => {
             let printer = Printer { pool: &program.pool, inputs: &program.inputs };
-            let named = |expr: &ExprId| printer.expr(*expr);
+            let named = |expr: &ExprId| match program.pool.expr_facts(*expr).size {
+                0..=LEGIBLE => printer.expr(*expr),
+                size => format!("an expression of {size} parts"),
+            };
             match values {
                 [one] => named(one),
                 several => {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value as Json, json};
 
+use super::fix::FixArguments;
 use super::input;
 use super::messages::{Format, Report};
 use super::{Outcome, PrecisionArgument, Result};
@@ -30,6 +31,8 @@ pub(super) struct Arguments {
     /// Floating-point type
     #[arg(long, value_enum, default_value = "f32", value_name = "TYPE")]
     precision: PrecisionArgument,
+    #[command(flatten)]
+    fix: FixArguments,
 }
 
 /// Explains one point, or one code.
@@ -41,6 +44,7 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
         return explain_code(word, report);
     }
     let program = Program::read_function(&arguments.table, arguments.function.as_deref())?;
+    let program = arguments.fix.apply(program)?;
     let source = Source::new("--at", arguments.at.as_str());
     let (point, assumed) = point(&program, &source)?;
     let explanation = explain::explain(&program, &point, arguments.precision.into())
@@ -186,6 +190,7 @@ fn object(program: &Program, explanation: &Explanation, assumed: &[InputId]) -> 
         "line": row.map(|row| program.line(row.span)),
         "section": row.map(|row| &row.section),
         "doc": row.map(|row| &row.doc),
+        "also": explanation.also.iter().map(|row| program.rows[*row].id).collect::<Vec<_>>(),
         "guard": all(&explanation.guard),
         "refused_lines": all(&explanation.refused_lines),
         "value_line": explanation.line.map(|line| line + 1),

@@ -17,6 +17,7 @@ mod errata;
 mod eval;
 mod expand;
 mod explain;
+mod fix;
 mod fmt;
 mod input;
 mod levels;

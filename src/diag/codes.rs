@@ -97,7 +97,7 @@ registry! {
     RECURSION = "U0210", Failure, Error, "a function calls itself";
     TOO_MANY_TERMS = "U0211", Failure, Error, "a sum or polynomial of no terms, or of too many";
     NOT_CONSTANT = "U0212", Failure, Error, "constant data, or a bound of a sum, that is not constant";
-    IMPORT = "U0213", Failure, Error, "an imported table that cannot be read, has no functions, or leads back";
+    IMPORT = "U0213", Failure, Error, "an imported table that cannot be read, or leads back";
     FUNCTION_SHAPE = "U0214", Failure, Error, "a function or helper whose fields do not make one; a table with cases and functions";
     PARAMETER = "U0215", Failure, Error, "a parameter that is not declared, not known, or not given";
     NO_FUNCTION = "U0216", Failure, Error, "a table of functions of which none was named, or one that it does not have";
@@ -138,6 +138,7 @@ registry! {
     FLOAT_EQUALITY = "U0515", Finding, Warning, "numbers that are compared for equality";
     JUMP = "U0516", Finding, Warning, "the value jumps at a border or switch where it is declared not to";
     SETTLED = "U0517", Finding, Warning, "a formula that is one number wherever it counts";
+    OVERLONG = "U0518", Finding, Error, "a list that can have more items than its output allows";
     INEXACT = "U0520", Finding, Note, "a constant that no `f32` equals (a note), or an integer that `f32` takes for another one";
     MERGEABLE = "U0521", Finding, Note, "cases that could be one (a note)";
     RENAMED = "U0522", Finding, Note, "a name that a target language has to change (a note)";

@@ -15,6 +15,7 @@ use crate::eval::{Interpreter, NeedsFetch};
 use crate::program::print::Printer;
 use crate::program::{Cond, CondId, ExprId, InputId, InputSet, Node, Program, Real, Value};
 use crate::show::Precision;
+use crate::table::HitPolicy;
 
 pub use steps::Step;
 
@@ -39,6 +40,8 @@ pub struct Explanation {
     pub refused: Vec<Tested>,
     /// The row taken, as an index into the program's rows; `None` for the default.
     pub row: Option<usize>,
+    /// The rows that count as well, where all that hold do, in order.
+    pub also: Vec<usize>,
     /// The parts of its guard.
     pub guard: Vec<Tested>,
     /// For each line of its value before the one that applies: what fails.
@@ -130,6 +133,14 @@ impl<'p, T: Real> Witness<'p, T> {
                 refused_lines.push(self.failing(candidate.condition).map_err(located)?);
             }
         }
+        let mut also = Vec::new();
+        if let (HitPolicy::Collect, Some(first)) = (program.hit_policy, taken) {
+            for (index, row) in program.rows.iter().enumerate().skip(first + 1) {
+                if self.interpreter.holds(row.guard).map_err(located)? {
+                    also.push(index);
+                }
+            }
+        }
         let steps = steps::of(&mut self, values).map_err(located)?;
         let outcome = self.interpreter.evaluate(point).map_err(located)?;
         debug_assert_eq!((outcome.row, outcome.line), (taken, line));
@@ -137,6 +148,7 @@ impl<'p, T: Real> Witness<'p, T> {
             point: self.point,
             refused,
             row: taken,
+            also,
             guard,
             refused_lines,
             line,

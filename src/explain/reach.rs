@@ -12,6 +12,7 @@ use crate::program::claims::decide;
 #[cfg(feature = "report")]
 use crate::program::claims::{Candidates, Claim};
 use crate::program::{Domain, InputId, InputSet, Program, Value};
+use crate::table::HitPolicy;
 
 /// Most evaluations for one case.
 const MAX_TRIES: usize = 300_000;
@@ -51,7 +52,8 @@ pub struct Reach {
 pub fn reach(program: &Program, row: usize) -> Reach {
     let mut search = Search::new(program, row);
     let states = search.states();
-    let guards = program.rows[..=row].iter().map(|row| program.pool.cond_facts(row.guard).inputs);
+    let first = if program.hit_policy == HitPolicy::Collect { row } else { 0 };
+    let guards = program.rows[first..=row].iter().map(|row| program.pool.cond_facts(row.guard).inputs);
     let digits = program.states.digits().iter().fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(*id)));
     let exact = guards.fold(InputSet::default(), InputSet::or).minus(digits).is_empty();
     let mut order: Vec<(usize, usize)> = states.iter().map(|state| (search.distance(*state), *state)).collect();
@@ -94,6 +96,10 @@ pub(crate) fn claims(program: &Program) -> Vec<Option<Claim>> {
 /// Earlier rows that are sure to take states in which the guard of a row could
 /// hold, with the number of these states.
 pub fn earlier(program: &Program, row: usize) -> Vec<(usize, usize)> {
+    // Where all cases count, none comes first.
+    if program.hit_policy == HitPolicy::Collect {
+        return Vec::new();
+    }
     let mut levels = vec![0; program.inputs.len()];
     let mut counts = vec![0; row];
     for state in 0..program.states.count() {
@@ -135,7 +141,8 @@ impl<'p> Search<'p> {
         let possible = (0..program.states.count()).filter(|state| {
             program.states.write(*state, &mut levels);
             let judged = |row: usize| decide(program, &program.pool, program.rows[row].guard, &levels);
-            judged(self.row) != Some(false) && (0..self.row).all(|row| judged(row) != Some(true))
+            let first = if program.hit_policy == HitPolicy::Collect { self.row } else { 0 };
+            judged(self.row) != Some(false) && (first..self.row).all(|row| judged(row) != Some(true))
         });
         possible.collect()
     }
@@ -214,9 +221,7 @@ impl<'p> Search<'p> {
     fn arrival(&mut self, point: &[Option<Value>]) -> Result<Option<Arrival>, NeedsFetch> {
         self.tries += 1;
         let outcome = self.interpreter.evaluate(point)?;
-        if outcome.row != Some(self.row) {
-            return Ok(None);
-        }
+        let Some(line) = self.line(outcome.row, outcome.line)? else { return Ok(None) };
         // An assumption about something that is not fetched here cannot be judged.
         let program = self.program;
         let judged = program.assumptions.iter().all(|a| self.interpreter.holds(a.condition).unwrap_or(true));
@@ -224,12 +229,30 @@ impl<'p> Search<'p> {
             point[id.index()].is_some_and(|value| input.fetched.is_some() || value != usual(input))
         });
         Ok(Some(Arrival {
-            line: outcome.line,
+            line,
             values: outcome.values.iter().map(|value| f64::from(*value)).collect(),
             deviations: deviations.count(),
             assumed: judged,
             point: point.to_vec(),
         }))
+    }
+
+    /// The line of the case in question that gives a part of the result, where its row or another one was taken; nothing
+    /// if the case has no part in it.
+    fn line(&mut self, row: Option<usize>, line: Option<usize>) -> Result<Option<Option<usize>>, NeedsFetch> {
+        if row == Some(self.row) {
+            return Ok(Some(line));
+        }
+        let case = &self.program.rows[self.row];
+        if self.program.hit_policy != HitPolicy::Collect || !self.interpreter.holds(case.guard)? {
+            return Ok(None);
+        }
+        for (number, line) in case.lines.iter().enumerate() {
+            if self.interpreter.holds(line.condition)? {
+                return Ok(Some(Some(number)));
+            }
+        }
+        Ok(Some(None))
     }
 
     fn note(&mut self, arrival: Arrival) {

@@ -54,6 +54,9 @@ fn cases(out: &mut String, program: &Program, explanation: &Explanation) {
         Some(row) => line(out, &format!("case {:width$}: yes", program.rows[row].id)),
         None => line(out, "none matches: the default counts"),
     }
+    for row in &explanation.also {
+        line(out, &format!("case {:width$}: yes, its items come next", program.rows[*row].id));
+    }
 }
 
 fn taken(out: &mut String, program: &Program, explanation: &Explanation) {

@@ -3,7 +3,7 @@
 //! A language spells these types and knows nothing of the kinds of output that they carry.
 
 /// The type of an input, or of one component of a result, in generated code.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Scalar {
     /// A real number, `f32`.
     Float,

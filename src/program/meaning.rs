@@ -109,6 +109,7 @@ impl Meaning<'_> {
         let policy = match program.hit_policy {
             HitPolicy::First => "first",
             HitPolicy::Unique => "unique",
+            HitPolicy::Collect => "collect",
         };
         let inputs = program.inputs.iter().map(|input| {
             let words = Words::of("input").text(&input.name).word(domain(&input.domain));

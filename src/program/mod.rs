@@ -24,6 +24,7 @@ mod domain;
 pub mod draw;
 #[cfg(test)]
 mod enumerated;
+mod fix;
 mod lower;
 mod meaning;
 pub(crate) mod normal;
@@ -36,6 +37,7 @@ pub(crate) mod rational;
 mod reachable;
 pub(crate) mod region;
 mod settle;
+mod substitute;
 pub(crate) mod symbolic;
 pub(crate) mod turn;
 mod visit;
@@ -124,6 +126,8 @@ pub struct Program {
     pub exhibit: Option<String>,
     /// The parts of the table that this does not keep.
     pub written: Written,
+    /// The inputs of the table that are decided here, in words; none in the program of the whole table.
+    pub decided: Vec<String>,
 }
 
 /// Parts of a table that are in its text only.
@@ -358,17 +362,21 @@ impl Program {
     /// # Errors
     /// With every mistake found, each at its place.
     pub fn check(table: &Table) -> Result<Self, Failure> {
-        match table.functions.is_empty() {
+        match table.functions.is_empty() && !table.declares_only {
             true => lower::program(table),
             false => Err(lower::no_function(table, None)),
         }
     }
 
-    /// Checks a table: one program, or one per function, in the order written.
+    /// Checks a table: one program, or one per function, in the order written; none if it only declares
+    /// something for others.
     ///
     /// # Errors
     /// With every mistake found, each at its place.
     pub fn check_all(table: &Table) -> Result<Vec<Self>, Failure> {
+        if table.declares_only {
+            return lower::declarations(table).map(|()| Vec::new());
+        }
         match table.functions.is_empty() {
             true => lower::program(table).map(|program| vec![program]),
             false => lower::functions(table),

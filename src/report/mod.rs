@@ -80,6 +80,7 @@ fn lead(program: &Program) -> String {
     let policy = match program.hit_policy {
         HitPolicy::First => "the first case that matches counts",
         HitPolicy::Unique => "no two cases contradict each other",
+        HitPolicy::Collect => "the items of all cases that match, in order",
     };
     let source = if program.origin.is_empty() { String::new() } else { format!(" Source: {}.", program.origin) };
     format!(

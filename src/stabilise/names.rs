@@ -99,7 +99,9 @@ impl Taken {
             }
             ExprKind::Case(_, set) | ExprKind::Record(set) => set.iter().for_each(|(name, _)| self.take(&name.value)),
             ExprKind::In(_, levels) => levels.iter().for_each(|level| self.take(&level.value)),
+            ExprKind::Level(set, level) => [set, level].into_iter().for_each(|name| self.take(&name.value)),
             ExprKind::Number(_)
+            | ExprKind::Optional(..)
             | ExprKind::Unary(..)
             | ExprKind::Binary(..)
             | ExprKind::Swizzle(..)

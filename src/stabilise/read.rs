@@ -134,6 +134,8 @@ impl<'t> Reader<'t> {
             }
             ExprKind::Sum(..)
             | ExprKind::List(_)
+            | ExprKind::Optional(..)
+            | ExprKind::Level(..)
             | ExprKind::Record(_)
             | ExprKind::Swizzle(..)
             | ExprKind::Case(..) => Err("it contains a sum, a list, or several numbers at once".to_owned()),
@@ -258,7 +260,7 @@ pub(super) fn is_singular(table: &Table, function: &Function) -> bool {
         match &expr.kind {
             ExprKind::Between(..) => return true,
             ExprKind::Binary(BinaryOp::Divide, _, under) if !is_number(under) => return true,
-            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => own.extend([&**a, &**b]),
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) | ExprKind::Optional(a, b) => own.extend([&**a, &**b]),
             ExprKind::Unary(_, a) | ExprKind::Swizzle(a, _) | ExprKind::Sum(_, _, a) | ExprKind::In(a, _) => {
                 own.push(a)
             }
@@ -285,7 +287,7 @@ pub(super) fn is_singular(table: &Table, function: &Function) -> bool {
                     own.push(&named.value);
                 }
             }
-            ExprKind::Number(_) => {}
+            ExprKind::Number(_) | ExprKind::Level(..) => {}
         }
     }
     false

@@ -19,6 +19,8 @@ pub enum ExprKind {
     Number(f64),
     /// A name, possibly dotted: an input, a named value, a local, a level, or a swizzle of one.
     Name(String),
+    /// `set::level`: a level that says its set.
+    Level(Spanned<String>, Spanned<String>),
     /// `-a`, `!a`.
     Unary(UnaryOp, Box<Expr>),
     /// `a + b`, `a && b`, `a < b`, …
@@ -35,8 +37,10 @@ pub enum ExprKind {
     If(Box<Expr>, Box<Expr>, Box<Expr>),
     /// `let n = a; b`.
     Let(Spanned<String>, Box<Expr>, Box<Expr>),
-    /// `[a, b]`: a list of enumeration levels, or the coefficients of a polynomial.
+    /// `[a, b if c]`: a list of results, or the coefficients of a polynomial.
     List(Vec<Expr>),
+    /// `b if c`: an item that is in its list only if a condition holds.
+    Optional(Box<Expr>, Box<Expr>),
     /// `f(p = a, q = b)`: a function of the table; parameters that are not given
     /// mean what they mean here.
     With(Spanned<String>, Vec<(Spanned<String>, Expr)>),
@@ -65,9 +69,9 @@ impl Expr {
     /// The expressions that this one is made of, in the order written.
     pub fn parts(&self) -> Vec<&Expr> {
         match &self.kind {
-            ExprKind::Number(_) | ExprKind::Name(_) => Vec::new(),
+            ExprKind::Number(_) | ExprKind::Name(_) | ExprKind::Level(..) => Vec::new(),
             ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => vec![&**a],
-            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => vec![&**a, &**b],
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) | ExprKind::Optional(a, b) => vec![&**a, &**b],
             ExprKind::If(a, b, c) | ExprKind::Between(a, _, b, c) => vec![&**a, &**b, &**c],
             ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().collect(),
             ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
@@ -81,9 +85,9 @@ impl Expr {
     /// The same, to be changed.
     pub fn parts_mut(&mut self) -> Vec<&mut Expr> {
         match &mut self.kind {
-            ExprKind::Number(_) | ExprKind::Name(_) => Vec::new(),
+            ExprKind::Number(_) | ExprKind::Name(_) | ExprKind::Level(..) => Vec::new(),
             ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => vec![&mut **a],
-            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => vec![&mut **a, &mut **b],
+            ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) | ExprKind::Optional(a, b) => vec![&mut **a, &mut **b],
             ExprKind::If(a, b, c) | ExprKind::Between(a, _, b, c) => vec![&mut **a, &mut **b, &mut **c],
             ExprKind::Call(_, items) | ExprKind::List(items) => items.iter_mut().collect(),
             ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
@@ -130,6 +134,7 @@ pub enum BinaryOp {
     Multiply,
     Divide,
     Remainder,
+    Join,
 }
 
 impl UnaryOp {
@@ -144,7 +149,7 @@ impl UnaryOp {
 
 impl BinaryOp {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Or,
         Self::And,
         Self::Equal,
@@ -158,6 +163,7 @@ impl BinaryOp {
         Self::Multiply,
         Self::Divide,
         Self::Remainder,
+        Self::Join,
     ];
 
     /// Its binding strength; the operands of a stronger one need no parentheses.
@@ -171,7 +177,7 @@ impl BinaryOp {
             | BinaryOp::LessEqual
             | BinaryOp::Greater
             | BinaryOp::GreaterEqual => 3,
-            BinaryOp::Add | BinaryOp::Subtract => 4,
+            BinaryOp::Add | BinaryOp::Subtract | BinaryOp::Join => 4,
             BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Remainder => 5,
         }
     }
@@ -192,6 +198,7 @@ impl BinaryOp {
             BinaryOp::Multiply => "*",
             BinaryOp::Divide => "/",
             BinaryOp::Remainder => "%",
+            BinaryOp::Join => "++",
         }
     }
 }

@@ -24,9 +24,9 @@ impl Token<'_> {
 }
 
 /// Two-character symbols come first, so that the longest one wins.
-const SYMBOLS: [&str; 27] = [
-    "||", "&&", "==", "!=", "<=", ">=", "..", "<", ">", "+", "-", "*", "/", "%", "!", "(", ")", "{", "}", "[", "]",
-    ",", ";", "=", ".", ":", "|",
+const SYMBOLS: [&str; 29] = [
+    "||", "&&", "==", "!=", "<=", ">=", "..", "::", "++", "<", ">", "+", "-", "*", "/", "%", "!", "(", ")", "{", "}",
+    "[", "]", ",", ";", "=", ".", ":", "|",
 ];
 
 /// Splits `text` into tokens; `base` is where the text starts in its source.

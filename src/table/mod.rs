@@ -84,6 +84,8 @@ pub struct Table {
     pub allow: Vec<Allow>,
     /// Set for a table that is kept to be looked at, mistakes included, with the reason.
     pub exhibit: Option<String>,
+    /// True if it has neither cases nor functions: it declares level sets and constants for others.
+    pub declares_only: bool,
 }
 
 /// The meaning of several cases that match the same input.
@@ -93,6 +95,8 @@ pub enum HitPolicy {
     First,
     /// It does not happen, or they agree: the checker proves it.
     Unique,
+    /// All of them count: the result is the list of what they give, in order.
+    Collect,
 }
 
 /// A named level of a discrete input.

@@ -219,7 +219,34 @@ impl<'a> Parser<'a> {
                 Ok(Spanned::new(span, format!("{}", if negative { -number } else { number })))
             }
             _ if negative => Err(self.unexpected("a number")),
-            _ => self.name("the name of a level"),
+            _ => {
+                let name = self.name("the name of a level")?;
+                if self.peek() != Token::Symbol("::") {
+                    return Ok(name);
+                }
+                let (set, level) = self.of_set(name)?;
+                Ok(Spanned::new(set.span.to(level.span), format!("{}::{}", set.value, level.value)))
+            }
+        }
+    }
+
+    /// `set::level`, `table::set::level`, of which the first word is read: the set and the level.
+    fn of_set(&mut self, first: Spanned<String>) -> Result<(Spanned<String>, Spanned<String>), Diagnostic> {
+        let mut set = first;
+        self.expect("::")?;
+        loop {
+            let negative = self.eat("-");
+            let level = match self.peek() {
+                Token::Number(number) => {
+                    Spanned::new(self.next().0, format!("{}", if negative { -number } else { number }))
+                }
+                _ if negative => return Err(self.unexpected("a number")),
+                _ => self.name("the name of a level")?,
+            };
+            if !self.eat("::") {
+                return Ok((set, level));
+            }
+            set = Spanned::new(set.span.to(level.span), format!("{}::{}", set.value, level.value));
         }
     }
 
@@ -266,7 +293,7 @@ impl<'a> Parser<'a> {
             Token::Symbol("{") => self.record(),
             Token::Symbol("[") => {
                 self.next();
-                let items = self.arguments("]", start)?;
+                let items = self.items(start)?;
                 Ok(Expr { span: start.to(items.1), kind: ExprKind::List(items.0) })
             }
             Token::Word("if") => self.nested(Self::conditional),
@@ -288,10 +315,39 @@ impl<'a> Parser<'a> {
                     let callee = Spanned::new(start, word.to_owned());
                     return Ok(Expr { span: start.to(end), kind: ExprKind::Call(callee, arguments) });
                 }
+                if self.peek() == Token::Symbol("::") {
+                    let (set, level) = self.of_set(Spanned::new(start, word.to_owned()))?;
+                    return Ok(Expr { span: start.to(level.span), kind: ExprKind::Level(set, level) });
+                }
                 Ok(Expr { span: start, kind: ExprKind::Name(word.to_owned()) })
             }
             _ => Err(self.unexpected("a value")),
         }
+    }
+
+    /// `[a, b if c]`, behind the bracket.
+    fn items(&mut self, open: Span) -> Result<(Vec<Expr>, Span), Diagnostic> {
+        let mut items = Vec::new();
+        let here = self.span();
+        if self.eat("]") {
+            return Ok((items, here));
+        }
+        loop {
+            let item = self.bracketed(|p| p.binary(0))?;
+            items.push(match self.keyword("if") {
+                true => {
+                    let condition = self.bracketed(|p| p.binary(0))?;
+                    let span = item.span.to(condition.span);
+                    Expr { span, kind: ExprKind::Optional(Box::new(item), Box::new(condition)) }
+                }
+                false => item,
+            });
+            if !self.eat(",") {
+                break;
+            }
+        }
+        let end = self.close("]", open)?;
+        Ok((items, end))
     }
 
     fn arguments(&mut self, end: &'static str, open: Span) -> Result<(Vec<Expr>, Span), Diagnostic> {
@@ -413,9 +469,11 @@ fn check_depth(expr: &Expr, depth: usize) -> Result<(), Diagnostic> {
     }
     let below = |expr: &Expr| check_depth(expr, depth + 1);
     match &expr.kind {
-        ExprKind::Number(_) | ExprKind::Name(_) => Ok(()),
+        ExprKind::Number(_) | ExprKind::Name(_) | ExprKind::Level(..) => Ok(()),
         ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => below(a),
-        ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => below(a).and_then(|()| below(b)),
+        ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) | ExprKind::Optional(a, b) => {
+            below(a).and_then(|()| below(b))
+        }
         ExprKind::If(a, b, c) => below(a).and_then(|()| below(b)).and_then(|()| below(c)),
         ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().try_for_each(below),
         ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {
@@ -446,6 +504,8 @@ mod tests {
         match &expr.kind {
             ExprKind::Number(n) => format!("{n}"),
             ExprKind::Name(n) => n.clone(),
+            ExprKind::Level(set, level) => format!("<{} of {}>", level.value, set.value),
+            ExprKind::Optional(a, c) => format!("{} if {}", shape(a), shape(c)),
             ExprKind::Unary(op, a) => format!("({}{})", if *op == UnaryOp::Not { "!" } else { "-" }, shape(a)),
             ExprKind::Binary(op, a, b) => format!("({} {} {})", shape(a), op.symbol(), shape(b)),
             ExprKind::In(a, levels) => {
@@ -501,6 +561,14 @@ mod tests {
             "if (H == left) {case(11, V = none)} else {if x {1} else {let q = 2; q}}"
         );
         assert_eq!(parsed("[a, b]"), "[a, b]");
+        assert_eq!(
+            parsed("[a, b + 1 if c && d, if e { a } else { b } if f]"),
+            "[a, (b + 1) if (c && d), if e {a} else {b} if f]"
+        );
+        assert_eq!(parsed("[a] ++ b ++ [c]"), "(([a] ++ b) ++ [c])");
+        assert_eq!(parsed("e == edge::left"), "(e == <left of edge>)");
+        assert_eq!(parsed("f(t::k::-1, {a:k::b})"), "f(<-1 of t::k>, {a: <b of k>})");
+        assert_eq!(parsed("e in {k::a, b}"), "(e in k::a|b)");
         assert_eq!(parsed("f(p = a, q = b + 1)"), "f(p = a, q = (b + 1))");
         assert_eq!(parsed("sum(n in nodes, n.x * f(n.y))"), "sum(n in nodes, (n.x * f(n.y)))");
         assert_eq!(parsed("sum(i in 0..3, i)"), "sum(i in 0 .. 3, i)");
@@ -525,6 +593,8 @@ mod tests {
         assert_eq!(parsed("a in {-b}"), "error: expected a number, found `b`");
         assert_eq!(parsed("if a { 1 }"), "error: expected `else`, found the end of the expression");
         assert_eq!(parsed(""), "error: empty expression");
+        assert_eq!(parsed("k::"), "error: expected the name of a level, found the end of the expression");
+        assert_eq!(parsed("f(a if b)"), "error: expected `)`, found `if`");
         assert_eq!(parsed("a & b"), "error: `&` has no meaning here");
         assert_eq!(parsed("1e999"), "error: `1e999` is not a usable number");
     }

@@ -31,7 +31,8 @@ struct TableRon<'a> {
     hit_policy: Option<Raw<'a>>,
     #[serde(default = "RawMap::empty")]
     levels: RawMap<'a>,
-    inputs: RawMap<'a>,
+    #[serde(default)]
+    inputs: Option<RawMap<'a>>,
     #[serde(default = "RawMap::empty")]
     groups: RawMap<'a>,
     #[serde(default = "RawMap::empty")]
@@ -230,7 +231,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     let name = errors.take(read.spanned::<String>(ron.name));
     let decision = errors.take(read.decision(&ron, &language));
     let levels = errors.each(ron.levels.0, |(n, v)| Ok((read.word(n)?, read.levels(&read.get(v)?)?)));
-    let inputs = errors.each(ron.inputs.0, |(n, v)| read.input(n, v));
+    let inputs = errors.each(ron.inputs.map_or_else(Vec::new, |map| map.0), |(n, v)| read.input(n, v));
     let groups = errors.each(ron.groups.0, |(n, v)| read.group(n, v));
     let names = errors.each(ron.names.0, |(n, v)| Ok(Named { name: read.word(n)?, value: read.condition(v)? }));
     let symmetries = errors.each(ron.symmetries.0, |(n, v)| read.symmetry(n, v));
@@ -244,31 +245,34 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     let helpers = errors.each(ron.helpers.0, |(n, v)| read.helper(n, v));
     let functions = errors.each(ron.functions.map_or_else(Vec::new, |map| map.0), |(n, v)| read.function(n, v));
     match (name, decision) {
-        (Some(name), Some(Decision { hit_policy, output, default })) if errors.0.is_empty() => Ok(Table {
-            source: source.clone(),
-            language,
-            name,
-            title: ron.title,
-            origin: ron.source,
-            hit_policy,
-            levels,
-            inputs,
-            groups,
-            names,
-            symmetries,
-            assumptions,
-            draw,
-            output,
-            cases,
-            default,
-            imports,
-            constants,
-            helpers,
-            functions,
-            continuity,
-            allow,
-            exhibit: ron.exhibit,
-        }),
+        (Some(name), Some(Decision { hit_policy, output, default, declares_only })) if errors.0.is_empty() => {
+            Ok(Table {
+                source: source.clone(),
+                language,
+                name,
+                title: ron.title,
+                origin: ron.source,
+                hit_policy,
+                levels,
+                inputs,
+                groups,
+                names,
+                symmetries,
+                assumptions,
+                draw,
+                output,
+                cases,
+                default,
+                imports,
+                constants,
+                helpers,
+                functions,
+                continuity,
+                allow,
+                exhibit: ron.exhibit,
+                declares_only,
+            })
+        }
         _ => Err(errors.0),
     }
 }
@@ -301,6 +305,7 @@ struct Decision {
     hit_policy: Spanned<HitPolicy>,
     output: Spanned<Output<Spanned<String>>>,
     default: Expr,
+    declares_only: bool,
 }
 
 impl<'a> Reader<'a> {
@@ -311,8 +316,22 @@ impl<'a> Reader<'a> {
             Diagnostic::error(codes::STRUCTURE, format!("the field `{field}` is missing in `Table`"))
                 .at(self.first_word(), "here")
         };
+        let nothing = |at: Span, declares_only: bool| Decision {
+            hit_policy: Spanned::new(at, HitPolicy::First),
+            output: Spanned::new(at, Output::Number(None)),
+            default: Expr { span: at, kind: ExprKind::Number(0.0) },
+            declares_only,
+        };
+        if self.declares_only(ron) {
+            since(2, language, self.first_word(), "a table without cases and functions")?;
+            return Ok(nothing(self.first_word(), true));
+        }
+        ron.inputs.as_ref().ok_or_else(|| missing("inputs"))?;
         let Some(functions) = &ron.functions else {
             let hit_policy = self.hit_policy(ron.hit_policy.ok_or_else(|| missing("hit_policy"))?)?;
+            if hit_policy.value == HitPolicy::Collect {
+                since(2, language, hit_policy.span, "`Collect`")?;
+            }
             let (output, later) = self.output(ron.output.ok_or_else(|| missing("output"))?)?;
             if let Some((place, what)) = later {
                 since(2, language, place, what)?;
@@ -334,6 +353,7 @@ impl<'a> Reader<'a> {
                     }
                 },
                 output,
+                declares_only: false,
             });
         };
         let odd =
@@ -348,11 +368,18 @@ impl<'a> Reader<'a> {
         if functions.0.is_empty() {
             return Err(Diagnostic::error(codes::FUNCTION_SHAPE, "the table has no functions").at(at, "this table"));
         }
-        Ok(Decision {
-            hit_policy: Spanned::new(at, HitPolicy::First),
-            output: Spanned::new(at, Output::Number(None)),
-            default: Expr { span: at, kind: ExprKind::Number(0.0) },
-        })
+        Ok(nothing(at, false))
+    }
+
+    /// Returns whether a table has nothing but level sets and constants.
+    fn declares_only(&self, ron: &TableRon<'a>) -> bool {
+        let maps = [&ron.groups, &ron.names, &ron.symmetries, &ron.assume, &ron.draw, &ron.continuity, &ron.helpers];
+        let decides = [ron.hit_policy, ron.output, ron.default].iter().any(Option::is_some)
+            || ron.cases.is_some()
+            || ron.functions.is_some()
+            || ron.inputs.is_some();
+        let declares = [&ron.levels, &ron.constants].iter().any(|map| !map.0.is_empty());
+        declares && !decides && maps.iter().all(|map| map.0.is_empty())
     }
 
     /// The place of what the source begins with.
@@ -370,10 +397,12 @@ impl<'a> Reader<'a> {
         let value = match self.shape(raw) {
             Shape::Word("First") => HitPolicy::First,
             Shape::Word("Unique") => HitPolicy::Unique,
+            Shape::Word("Collect") => HitPolicy::Collect,
             _ => {
                 return Err(Diagnostic::error(codes::STRUCTURE, "unknown hit policy")
-                    .at(self.span(raw), "expected `First` or `Unique`")
-                    .help("First: the first matching case decides. Unique: no two cases match, or they agree"));
+                    .at(self.span(raw), "expected `First`, `Unique` or `Collect`")
+                    .help("First: the first matching case decides. Unique: no two cases match, or they agree")
+                    .help("Collect: the items of all matching cases, in order"));
             }
         };
         Ok(Spanned::new(self.span(raw), value))

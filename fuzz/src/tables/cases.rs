@@ -38,7 +38,7 @@ impl Draft {
 /// Makes a table of cases.
 pub(super) fn table(choices: &mut Choices<'_>) -> Written {
     let mut maker = Maker::new(choices);
-    let mut draft = maker.draft();
+    let mut draft = maker.draft(true);
     if maker.choices.either() {
         examples::add(&mut maker, &mut draft);
     }
@@ -47,8 +47,9 @@ pub(super) fn table(choices: &mut Choices<'_>) -> Written {
 }
 
 impl Maker<'_, '_> {
-    fn draft(&mut self) -> Draft {
+    pub(super) fn draft(&mut self, imports: bool) -> Draft {
         let mut list: Vec<Field> = vec![("name", "\"t\"".to_owned())];
+        self.modern = self.choices.either();
         self.put(&mut list, "levels", Self::level_sets);
         let inputs = self.declare_inputs(true);
         list.push(("inputs", inputs));
@@ -59,16 +60,19 @@ impl Maker<'_, '_> {
             self.put(&mut list, "constants", Self::constants);
             self.put(&mut list, "helpers", |maker| maker.helpers(3));
         }
-        if self.choices.one_in(12) {
-            let (imports, file) = self.imports();
+        if imports && self.choices.one_in(12) {
+            let (imports, file) = match self.modern && self.choices.either() {
+                true => self.import_of_cases(),
+                false => self.imports(),
+            };
             list.push(("imports", imports));
             beside.push(file);
         }
-        self.put(&mut list, "names", |maker| maker.names(3));
         let output = self.output();
+        self.put(&mut list, "names", |maker| maker.names(3));
         let later =
             ["Record(", "Bool(", "Int(", "List(of: Vector", "List(of: List"].iter().any(|word| output.contains(word));
-        list.push(("language", (if later || self.choices.either() { "2" } else { "1" }).to_owned()));
+        list.push(("language", (if later || self.modern { "2" } else { "1" }).to_owned()));
         list.push(("output", output));
         let mut symmetries = Vec::new();
         if self.choices.either() {
@@ -87,9 +91,17 @@ impl Maker<'_, '_> {
             list.push(("exhibit", self.doc()));
         }
         let unique = self.choices.one_in(3);
-        list.push(("hit_policy", (if unique { "Unique" } else { "First" }).to_owned()));
+        let collect = self.modern && matches!(self.output, Type::List(..)) && self.choices.either();
+        let policy = if collect {
+            "Collect"
+        } else if unique {
+            "Unique"
+        } else {
+            "First"
+        };
+        list.push(("hit_policy", policy.to_owned()));
         let names: Vec<String> = symmetries.into_iter().map(|(name, _)| name).collect();
-        let cases = self.cases(unique, &names);
+        let cases = self.cases(unique && !collect, collect, &names);
         let (scope, ty) = (self.scope.clone(), self.output.clone());
         let default = self.quoted(&scope, &ty, 1);
         list.push(("default", default));
@@ -189,7 +201,14 @@ impl Maker<'_, '_> {
                     if levels.is_empty() { Type::Number } else { self.choices.pick(&levels).clone() }
                 }
             };
+            let ty = match &self.output {
+                Type::List(of, most) if self.modern && matches!(**of, Type::Level(_)) && self.choices.either() => {
+                    Type::List(of.clone(), *most)
+                }
+                _ => ty,
+            };
             let scope = self.scope.clone();
+            self.alone = matches!(ty, Type::List(..));
             let value = match ty {
                 Type::Condition => self.guard(&scope, depth),
                 // A bare level has no set by itself.
@@ -200,6 +219,7 @@ impl Maker<'_, '_> {
                 }
                 _ => self.quoted(&scope, &ty, depth),
             };
+            self.alone = false;
             let name = self.name("n");
             written.push((name.clone(), value));
             self.scope.add(Visible { text: name, ty, input: false });
@@ -207,7 +227,7 @@ impl Maker<'_, '_> {
         map(&self.choices.shuffled(written))
     }
 
-    fn cases(&mut self, unique: bool, symmetries: &[String]) -> Vec<Case> {
+    fn cases(&mut self, unique: bool, collect: bool, symmetries: &[String]) -> Vec<Case> {
         let count = self.choices.within(1, 7);
         let ids = self.ids(count);
         let mut cases: Vec<Case> = Vec::new();
@@ -227,7 +247,7 @@ impl Maker<'_, '_> {
                     final_ones.push(id);
                 }
                 plain.push(id);
-                self.written_out(&mut list, &scope, unique, number, count);
+                self.written_out(&mut list, &scope, (unique, collect), number, count);
             }
             self.remarks(&mut list);
             cases.push(Case { id, fields: list, examples: Vec::new() });
@@ -243,7 +263,14 @@ impl Maker<'_, '_> {
     }
 
     /// Guard and value, or guard and lines.
-    fn written_out(&mut self, list: &mut Vec<Field>, scope: &Scope, unique: bool, number: usize, count: usize) {
+    fn written_out(
+        &mut self,
+        list: &mut Vec<Field>,
+        scope: &Scope,
+        (unique, collect): (bool, bool),
+        number: usize,
+        count: usize,
+    ) {
         let guards = Scope { cases: Vec::new(), ..scope.clone() };
         let depth = self.choices.within(0, 3);
         let guard = match unique && !self.choices.one_in(3) {
@@ -258,7 +285,10 @@ impl Maker<'_, '_> {
             list.push(("value", value));
             return;
         }
-        let lines = self.lines(scope, &guards, &ty, depth);
+        let mut lines = self.lines(scope, &guards, &ty, depth);
+        if collect && lines.last().is_some_and(|last| last.starts_with('(')) {
+            lines.push("\"[]\"".to_owned());
+        }
         list.push(("lines", super::list(&lines)));
     }
 

@@ -190,7 +190,14 @@ impl Maker<'_, '_> {
         match ty {
             Type::Number => Piece::primary(self.literal()),
             Type::Condition => super::conditions::leaf(self, scope),
-            Type::Level(set) => Piece::primary(self.level_of(*set)),
+            Type::Level(set) => {
+                let level = self.level_of(*set);
+                let own = self.sets[*set].name.clone().filter(|_| self.modern);
+                match own.filter(|_| self.alone || self.choices.one_in(4)) {
+                    Some(set) => Piece::primary(format!("{set}::{level}")),
+                    None => Piece::primary(level),
+                }
+            }
             Type::Vector(size) => {
                 let parts: Vec<String> = (0..*size).map(|_| self.leaf(scope, &Type::Number).text).collect();
                 Piece::primary(format!("vec{size}({})", parts.join(", ")))

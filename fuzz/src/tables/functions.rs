@@ -125,6 +125,24 @@ impl Maker<'_, '_> {
         }
     }
 
+    /// A table of cases to import: what is written here, and the file.
+    pub(super) fn import_of_cases(&mut self) -> (String, (String, String)) {
+        let mut other = Maker::new(self.choices);
+        other.names = 700;
+        other.fuel = 20;
+        let draft = other.draft(false);
+        let text = draft.plain().replacen("name: \"t\"", "name: \"other\"", 1);
+        let inputs = other.inputs.iter().map(|input| (input.name.clone(), input.kind.ty()));
+        let inputs: Vec<(String, Type)> = inputs.collect();
+        // Levels of another table are of sets that are not known here.
+        let plain = |ty: &Type| matches!(ty, Type::Number | Type::Condition | Type::Vector(_));
+        let gives = other.output.clone();
+        if plain(&gives) && inputs.iter().all(|(_, ty)| plain(ty)) {
+            self.scope.callable.push(Callable { name: "im".to_owned(), parameters: inputs, gives, by_name: false });
+        }
+        ("{\"im\": \"other.ron\"}".to_owned(), ("other.ron".to_owned(), text))
+    }
+
     /// A table to import: what is written here, and the file.
     pub(super) fn imports(&mut self) -> (String, (String, String)) {
         let mut other = Maker::new(self.choices);

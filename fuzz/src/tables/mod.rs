@@ -42,6 +42,10 @@ pub(crate) struct Maker<'c, 'b> {
     output: Type,
     /// True if the output is a number and a symmetry may change it.
     one_number: bool,
+    /// True if what came with version 2 of the language may occur in expressions.
+    modern: bool,
+    /// True where nothing says of which set a level is.
+    alone: bool,
 }
 
 /// A table as text, with the tables that it imports.
@@ -72,6 +76,8 @@ impl<'c, 'b> Maker<'c, 'b> {
             scope: Scope::default(),
             output: Type::Number,
             one_number: true,
+            modern: false,
+            alone: false,
         }
     }
 
@@ -145,6 +151,7 @@ mod tests {
         "title:",
         "First",
         "Unique",
+        "Collect",
         "levels:",
         "Levels(of",
         "Levels(values",
@@ -184,6 +191,10 @@ mod tests {
         ": Int(",
         "List(of: Vector",
         "List(of: List",
+        "::",
+        "++",
+        ") if ",
+        "im(",
         "clamp:",
         "section:",
         "when:",

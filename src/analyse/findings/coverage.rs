@@ -131,7 +131,8 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let warned = dead.iter().filter(|dead| whole(dead.row) && (ordered || dead.covered_by.is_empty()));
     let mut found: Vec<Diagnostic> = warned.map(|dead| never_taken(program, dead)).collect();
     for row in 0..program.rows.len() {
-        let reached = study.space.can_meet(study.rows.taken[row], study.assumed);
+        let counts = study.counts(row);
+        let reached = study.space.can_meet(counts, study.assumed);
         if !reached && !is_dead(row) && program.rows[row].under.is_empty() {
             found.push(not_reached(study, row));
         }

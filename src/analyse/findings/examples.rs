@@ -6,6 +6,7 @@ use crate::diag::{Diagnostic, codes};
 use crate::eval::Interpreter;
 use crate::program::{Example, Program};
 use crate::show::{Precision, sentence};
+use crate::table::HitPolicy;
 
 /// Returns whether a computed component is what an example expects.
 ///
@@ -44,8 +45,19 @@ fn run(program: &Program, interpreter: &mut Interpreter<'_, f32>, example: &Exam
     let got: Vec<f64> = outcome.values.iter().map(|v| f64::from(*v)).collect();
     let got_shown = sentence(&program.output, &got, Precision::F32);
     let taken = outcome.row.map(|taken| &program.rows[taken]);
-    if taken.is_none_or(|taken| taken.id != row.id) {
+    let counts = match program.hit_policy {
+        HitPolicy::First | HitPolicy::Unique => taken.is_some_and(|taken| taken.id == row.id),
+        // Of a case with images, any of its rows.
+        HitPolicy::Collect => program
+            .rows
+            .iter()
+            .filter(|other| other.id == row.id)
+            .any(|other| interpreter.holds(other.guard).unwrap_or(false)),
+    };
+    if !counts {
         let error = match taken {
+            Some(taken) if program.hit_policy == HitPolicy::Collect => fails("does not make its guard hold".to_owned())
+                .at(example.span, format!("here case {} holds, and the result is {got_shown}", taken.id)),
             Some(taken) => fails(format!("is taken by case {}", taken.id))
                 .at(
                     example.span,

@@ -18,7 +18,7 @@ pub(in crate::analyse) const ANALYSIS: Analysis =
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for row in 0..study.program.rows.len() {
-        let taken = study.space.sets.and(study.rows.taken[row], study.assumed);
+        let taken = study.space.sets.and(study.counts(row), study.assumed);
         // A case that is never taken is a finding of its own.
         if study.space.is_void(taken) {
             continue;
@@ -165,11 +165,11 @@ fn dead_line(study: &mut Study<'_>, row: usize, number: usize) -> Diagnostic {
     let anywhere: Vec<Set> = study.rows.own[row].iter().filter(here).map(|piece| piece.set).collect();
     let mut counts = Set::EMPTY;
     for set in anywhere {
-        let set = study.space.sets.and(set, study.rows.taken[row]);
+        let set = study.space.sets.and(set, study.counts(row));
         counts = study.space.sets.or(counts, set);
     }
     let condition = study.space.condition(line.condition, View::PLAIN);
-    let holds = study.space.sets.and(condition, study.rows.taken[row]);
+    let holds = study.space.sets.and(condition, study.counts(row));
     let holds = if study.space.is_void(holds) { holds } else { study.space.sets.and(holds, study.assumed) };
     let message = format!("line {} of case {} never counts", number + 1, case.id);
     let warning = Diagnostic::warning(codes::DEAD_LINE, message).about([format!("line {}", number + 1)]);

@@ -7,6 +7,7 @@ pub(crate) mod continuity;
 pub(crate) mod coverage;
 pub(crate) mod examples;
 pub(crate) mod guards;
+pub(crate) mod lengths;
 pub(crate) mod lines;
 pub(crate) mod numbers;
 pub(crate) mod overlap;
@@ -41,6 +42,7 @@ pub(super) enum Run {
 pub(super) const ALL: &[Analysis] = &[
     examples::ANALYSIS,
     accuracy::ANALYSIS,
+    lengths::ANALYSIS,
     unused::ANALYSIS,
     #[cfg(feature = "precise")]
     singular::ANALYSIS,

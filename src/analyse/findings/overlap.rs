@@ -127,6 +127,10 @@ pub(in crate::analyse) const ANALYSIS: Analysis =
 /// each case that comes before others with different values.
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
+    // Cases that all count are meant to hold together.
+    if program.hit_policy == HitPolicy::Collect {
+        return Vec::new();
+    }
     let unique = program.hit_policy == HitPolicy::Unique;
     let within = if unique { Set::ALL } else { study.assumed };
     let mut conflicts: Vec<(usize, Vec<usize>)> = Vec::new();

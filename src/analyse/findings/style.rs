@@ -8,6 +8,7 @@ use crate::analyse::sets::study::Study;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{Comparison, Cond, CondId, ExprId, LevelKind, LevelSet, Program};
+use crate::table::HitPolicy;
 
 /// The codes that are found here, and how.
 pub(in crate::analyse) const ANALYSIS: Analysis =
@@ -15,7 +16,11 @@ pub(in crate::analyse) const ANALYSIS: Analysis =
 
 /// Everything about style.
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
-    let mut found = mergeable(study);
+    // Where all cases count, two of them are not one.
+    let mut found = match study.program.hit_policy {
+        HitPolicy::First | HitPolicy::Unique => mergeable(study),
+        HitPolicy::Collect => Vec::new(),
+    };
     found.extend(inexact(study.program));
     found.extend(beside_integers(study.program));
     found.extend(renamed(study.program));

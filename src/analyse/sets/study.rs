@@ -5,6 +5,7 @@ use super::budget::STEPS;
 use super::nearby::Nearby;
 use super::space::{Space, View};
 use crate::program::{ExprId, Program};
+use crate::table::HitPolicy;
 
 /// A value without selections, and the set where a row gives it.
 #[derive(Debug, Clone)]
@@ -160,6 +161,14 @@ impl<'p> Study<'p> {
         let start = self.pieces.partition_point(|piece| place(piece.row) < place(row));
         let count = self.pieces[start..].partition_point(|piece| piece.row == row);
         &self.pieces[start..start + count]
+    }
+
+    /// The set where the case of a row counts: where it is taken or, if all that hold count, where it holds.
+    pub(in crate::analyse) fn counts(&self, row: usize) -> Set {
+        match self.program.hit_policy {
+            HitPolicy::First | HitPolicy::Unique => self.rows.taken[row],
+            HitPolicy::Collect => self.rows.guards[row],
+        }
     }
 
     /// The later rows whose guards meet that of a row.

@@ -1,11 +1,37 @@
 //! Leaves, conditions and expressions → statements of some language.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use super::body::Body;
 use crate::emit::language::{Type, bare, value};
 use crate::plan::Leaf;
-use crate::program::{Comparison, Cond, CondId, Domain, ExprId, InputId, LevelKind, LevelSet, Node, Scalar};
+use crate::program::{
+    Comparison, Cond, CondId, DataType, Domain, ExprId, InputId, LevelKind, LevelSet, Node, Pool, Scalar,
+};
+
+/// Most choices of a result that are written where they stand; of more, those that stand in several places get a local.
+const MAX_REPEATED: u32 = 64;
+
+/// The names of choices, each with the type that it has.
+type Shared = HashMap<(Scalar, ExprId), String>;
+
+/// Counts the uses of each choice, and the choices that stand there when all are written out.
+fn count_choices(
+    pool: &Pool,
+    choice: (Scalar, ExprId),
+    uses: &mut HashMap<(Scalar, ExprId), usize>,
+    sizes: &mut HashMap<(Scalar, ExprId), u32>,
+) -> u32 {
+    let Node::Select(_, a, b) = pool.node(choice.1) else { return 0 };
+    *uses.entry(choice).or_insert(0) += 1;
+    if let Some(size) = sizes.get(&choice) {
+        return *size;
+    }
+    let [a, b] = [a, b].map(|side| count_choices(pool, (choice.0, side), uses, sizes));
+    let size = a.saturating_add(b).saturating_add(1);
+    sizes.insert(choice, size);
+    size
+}
 
 impl Body<'_, '_> {
     pub(in crate::emit) fn leaf(&mut self, leaf: &Leaf) {
@@ -36,11 +62,10 @@ impl Body<'_, '_> {
         self.computed_constants(&leaf.values, &[]);
         let numbers = components.iter().filter(|(scalar, _)| *scalar == Scalar::Float);
         self.declare(&numbers.map(|(_, value)| *value).collect::<Vec<_>>());
+        let shared = self.shared_choices(&components);
         let components = components.iter().map(|(scalar, value)| match scalar {
             Scalar::Float => bare(&self.expr(*value)).to_owned(),
-            Scalar::Uint => bare(&self.whole(*value, |me, value| me.dialect.uint(value as u32))).to_owned(),
-            Scalar::Int => bare(&self.whole(*value, |me, value| me.dialect.int(value as i32))).to_owned(),
-            Scalar::Bool => bare(&self.truth(*value)).to_owned(),
+            Scalar::Uint | Scalar::Int | Scalar::Bool => bare(&self.choice(*scalar, *value, &shared)).to_owned(),
         });
         let value = value(self.dialect, self.prefix, &data, components);
         let result = self.dialect.result(self.prefix, &value, &case);
@@ -122,35 +147,59 @@ impl Body<'_, '_> {
         }
     }
 
-    /// An expression of whole numbers: constants, as `literal` writes them, and selections.
-    fn whole(&self, expr: ExprId, literal: impl Fn(&Self, f64) -> String + Copy) -> String {
-        match self.plan.pool.node(expr) {
-            Node::Select(c, a, b) => {
-                let condition = self.condition(c);
-                self.dialect.select(bare(&condition), &self.whole(a, literal), &self.whole(b, literal))
-            }
-            Node::Const(number) => literal(self, number.get()),
-            Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
-                literal(self, 0.0)
-            }
+    /// Declares locals for choices that several components of a result have in common, if there are many.
+    fn shared_choices(&mut self, components: &[(Scalar, ExprId)]) -> Shared {
+        let pool = &self.plan.pool;
+        let (mut uses, mut sizes) = (HashMap::new(), HashMap::new());
+        let choices = components.iter().filter(|(scalar, _)| *scalar != Scalar::Float);
+        let size = choices.fold(0_u32, |all, (scalar, value)| {
+            all.saturating_add(count_choices(pool, (*scalar, *value), &mut uses, &mut sizes))
+        });
+        let mut shared = Shared::new();
+        if size <= MAX_REPEATED {
+            return shared;
         }
+        let several = uses.into_iter().filter(|(_, count)| *count > 1).map(|(choice, _)| choice);
+        let mut several: Vec<(Scalar, ExprId)> = several.collect();
+        // Operands have lower numbers than what is made of them.
+        several.sort_unstable_by_key(|(scalar, value)| (*value, *scalar as u8));
+        for (scalar, value) in several {
+            let name = self.temporary();
+            let text = self.choice(scalar, value, &shared);
+            let ty = Type::Data(DataType::Scalar(scalar));
+            self.text.line(self.dialect.local(&ty, &name, bare(&text), self.prefix));
+            shared.insert((scalar, value), name);
+        }
+        shared
     }
 
-    /// A condition that stands as 1 or 0: constants and selections.
-    fn truth(&self, expr: ExprId) -> String {
-        let known = |expr| self.plan.pool.constant(expr).map(|value| value != 0.0);
-        match self.plan.pool.node(expr) {
-            Node::Select(c, a, b) => match (known(a), known(b)) {
-                (Some(true), Some(false)) => self.condition(c),
-                (Some(false), Some(true)) => format!("!({})", bare(&self.condition(c))),
-                _ => self.dialect.select(bare(&self.condition(c)), &self.truth(a), &self.truth(b)),
-            },
-            Node::Const(_)
-            | Node::Input(_)
-            | Node::Result(_)
-            | Node::Unary(..)
-            | Node::Binary(..)
-            | Node::Ternary(..) => known(expr).unwrap_or_default().to_string(),
+    /// A component that is no real number: constants, and choices between such.
+    fn choice(&self, scalar: Scalar, expr: ExprId, shared: &Shared) -> String {
+        if let Some(name) = shared.get(&(scalar, expr)) {
+            return name.clone();
+        }
+        let known = |expr| self.plan.pool.constant(expr);
+        match (self.plan.pool.node(expr), scalar) {
+            (Node::Select(c, a, b), Scalar::Bool) if known(a) == Some(1.0) && known(b) == Some(0.0) => {
+                self.condition(c)
+            }
+            (Node::Select(c, a, b), Scalar::Bool) if known(a) == Some(0.0) && known(b) == Some(1.0) => {
+                format!("!({})", bare(&self.condition(c)))
+            }
+            (Node::Select(c, a, b), _) => {
+                let condition = self.condition(c);
+                let [a, b] = [a, b].map(|side| self.choice(scalar, side, shared));
+                self.dialect.select(bare(&condition), &a, &b)
+            }
+            (node, scalar) => {
+                let value = if let Node::Const(number) = node { number.get() } else { 0.0 };
+                match scalar {
+                    Scalar::Float => self.dialect.number(value),
+                    Scalar::Uint => self.dialect.uint(value as u32),
+                    Scalar::Int => self.dialect.int(value as i32),
+                    Scalar::Bool => (value != 0.0).to_string(),
+                }
+            }
         }
     }
 

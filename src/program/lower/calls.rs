@@ -20,6 +20,9 @@ impl Lowering<'_> {
         if let Some(callee) = self.callee(name, call.env.scope) {
             return self.call_in_order(callee, call.arguments, call.span, call.env);
         }
+        if let Some(table) = self.called_table(name, call.env.scope) {
+            return self.table_in_order(table, call.arguments, call.span, call.env);
+        }
         let Some(op) = Operator::named(name) else { return Err(self.unknown_function(function, call.env)) };
         let operand = |me: &mut Self, index: usize| me.term(&call.arguments[index], call.env, Expected::Anything);
         match op {

@@ -9,7 +9,6 @@ use crate::program::InputId;
 use crate::program::domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace};
 use crate::program::pool::InputSet;
 use crate::table::{self, names};
-use crate::text::closest::nearest;
 
 impl<'t> Lowering<'t> {
     pub(super) fn declare(&mut self, inputs: &[&'t table::Input], errors: &mut Vec<Diagnostic>) {
@@ -70,7 +69,7 @@ impl<'t> Lowering<'t> {
                 );
             }
         }
-        if table.cases.is_empty() && table.functions.is_empty() {
+        if table.cases.is_empty() && table.functions.is_empty() && !table.declares_only {
             errors.push(
                 Diagnostic::error(codes::EMPTY, "the table has no cases")
                     .at(table.name.span, "this table")
@@ -154,7 +153,7 @@ impl<'t> Lowering<'t> {
     }
 
     /// The levels of an input, a set that it is the first to have or one that others have, too; none of a range.
-    fn set_of_input(&mut self, input: &'t table::Input) -> Result<Option<SetId>> {
+    pub(super) fn set_of_input(&mut self, input: &'t table::Input) -> Result<Option<SetId>> {
         if let Some(known) = self.own_sets.get(input.name.value.as_str()) {
             return Ok(Some(*known));
         }
@@ -221,31 +220,6 @@ impl<'t> Lowering<'t> {
         }
         self.input_sets.push(set);
         Ok(checked)
-    }
-
-    pub(super) fn find_set(&mut self, name: &Spanned<String>) -> Result<SetId> {
-        if let Some(set) = self.set_index.get(name.value.as_str()) {
-            return Ok(*set);
-        }
-        if let Some(input) = self.input_index.get(name.value.as_str())
-            && let Some(set) = self.input_sets[input.index()]
-        {
-            return Ok(set);
-        }
-        // What the parameters of a function have the levels of need not be a parameter of it. All inputs of the
-        // table were declared before, so none stands further down or leads back here.
-        let table = self.table;
-        let elsewhere = table.inputs.iter().find(|input| self.of_function && input.name.value == name.value);
-        if let Some(set) = elsewhere.map_or(Ok(None), |input| self.set_of_input(input))? {
-            return Ok(set);
-        }
-        let known = self.set_index.keys().chain(self.input_index.keys()).copied();
-        let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no level set `{}`", name.value))
-            .at(name.span, "neither under `levels` nor a discrete input declared above");
-        Err(match nearest(&name.value, known) {
-            Some(close) => error.help(format!("did you mean `{close}`?")),
-            None => error,
-        })
     }
 
     pub(super) fn too_many_states(&self, product: f64) -> Diagnostic {

@@ -67,7 +67,9 @@ impl<'t> Lowering<'t> {
         let own = own.chain(table.functions.iter().map(|f| f.name.value.clone()));
         let imported = table.imports.iter().flat_map(|import| {
             let functions = import.table.iter().flat_map(|table| &table.functions);
-            functions.map(|f| format!("{}.{}", import.alias.value, f.name.value))
+            let own = functions.map(|f| format!("{}.{}", import.alias.value, f.name.value));
+            let table = import.table.iter().filter(|table| !table.cases.is_empty()).map(|_| import.alias.value.clone());
+            own.chain(table)
         });
         own.chain(imported).collect()
     }
@@ -443,6 +445,14 @@ impl<'t> Lowering<'t> {
         }
     }
 
+    /// Checks a constant by itself, used or not.
+    pub(super) fn check_constant(&mut self, index: usize, name: &Spanned<String>) -> Result<()> {
+        match &self.scopes[0].constants[index].value {
+            ConstantValue::Number(expr) => self.known_constant(expr, index, 0).map(drop),
+            ConstantValue::List(_) => self.constant_list(name, &Env::default()).map(drop),
+        }
+    }
+
     /// The value of a named constant, computed once.
     fn known_constant(&mut self, expr: &Expr, index: usize, scope: usize) -> Result<f64> {
         if let Some(known) = self.memo.constants.get(&(scope, index)) {
@@ -468,16 +478,17 @@ impl<'t> Lowering<'t> {
 
     /// The items of a list of constants.
     fn constant_list(&mut self, list: &Spanned<String>, env: &Env) -> Result<Items> {
-        let constants = &self.scopes[env.scope].constants;
+        let (scope, name) = self.in_import(&list.value, env.scope).unwrap_or((env.scope, &list.value));
+        let constants = &self.scopes[scope].constants;
         let lists = || {
             let lists = constants.iter().filter(|c| matches!(c.value, ConstantValue::List(_)));
             lists.map(|c| c.name.value.as_str())
         };
-        let found = constants.iter().position(|c| c.name.value == list.value);
+        let found = constants.iter().position(|c| c.name.value == name);
         let Some((index, ConstantValue::List(items))) = found.map(|index| (index, &constants[index].value)) else {
             let message = format!("`{}` is not a list of constants", list.value);
             let error = Diagnostic::error(codes::UNKNOWN_NAME, message).at(list.span, "expected a list of `constants`");
-            return Err(match nearest(&list.value, lists()) {
+            return Err(match nearest(name, lists()) {
                 Some(close) => error.help(format!("did you mean `{close}`?")),
                 None if lists().next().is_none() => {
                     error.help("declare one: constants: {\"nodes\": [(0.25, 1), (0.75, 1)]}")
@@ -496,14 +507,14 @@ impl<'t> Lowering<'t> {
             let at = odd.first().map_or(list.span, |number| number.span);
             return Err(Diagnostic::error(codes::NOT_CONSTANT, message).at(at, format!("not {width} numbers")));
         }
-        if let Some(known) = self.memo.lists.get(&(env.scope, index)) {
+        if let Some(known) = self.memo.lists.get(&(scope, index)) {
             return Ok(known.clone());
         }
         let numbers = |me: &mut Self, item: &Vec<Expr>| {
-            item.iter().map(|number| me.constant_number(number, index, env.scope)).collect()
+            item.iter().map(|number| me.constant_number(number, index, scope)).collect()
         };
         let items: Items = Rc::new(items.iter().map(|item| numbers(self, item)).collect::<Result<_>>()?);
-        self.memo.lists.insert((env.scope, index), items.clone());
+        self.memo.lists.insert((scope, index), items.clone());
         Ok(items)
     }
 }

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use super::scope::Env;
 use super::terms::Term;
@@ -142,6 +141,6 @@ impl<'t> Lowering<'t> {
     pub(super) fn mapped_env(&self, images: HashMap<InputId, Term>, env: &Env) -> Env {
         let mut overrides = (*env.overrides).clone();
         overrides.extend(images);
-        Env { overrides: Arc::new(overrides), names: Rc::default(), ..env.clone() }
+        Env { overrides: Rc::new(overrides), names: Rc::default(), ..env.clone() }
     }
 }

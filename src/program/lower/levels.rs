@@ -216,10 +216,7 @@ impl Lowering<'_> {
         };
         let mut mask = 0;
         for word in levels {
-            match self.sets[set.0].find(&word.value) {
-                Some(level) => mask |= LevelSet::one(level).0,
-                None => return Err(self.unknown_level(set, &word.value, word.span)),
-            }
+            mask |= LevelSet::one(self.listed_level(set, word, env.scope)?).0;
         }
         Ok(Term::Bool(self.level_in(set, &term, LevelSet(mask))))
     }

@@ -7,6 +7,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use super::tables::Programs;
 use super::terms::Expected;
 use super::{Lowering, Result, built_in, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
@@ -17,16 +18,25 @@ use crate::text::closest::nearest;
 
 /// Checks a table of functions.
 pub(in crate::program) fn functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
-    check_imports(table, &mut HashSet::new())?;
-    own_functions(table)
+    let mut imported = Imported::default();
+    check_imports(table, &mut imported)?;
+    own_functions(table, &imported)
+}
+
+/// The imported tables that were checked.
+#[derive(Default)]
+pub(super) struct Imported {
+    checked: HashSet<*const Table>,
+    /// The programs of those that have cases.
+    pub(super) programs: Programs,
 }
 
 /// Checks a table of functions whose imports are checked.
-fn own_functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
+fn own_functions(table: &Table, imported: &Imported) -> std::result::Result<Vec<Program>, Failure> {
     let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
     let mut errors = Vec::new();
     // Declarations are judged once, with all inputs; without sound ones nothing else could be.
-    let mut all = Lowering::new(table);
+    let mut all = Lowering::new(table, imported.programs.clone());
     let inputs: Vec<&table::Input> = table.inputs.iter().collect();
     all.declare(&inputs, &mut errors);
     all.declare_functions(&mut errors);
@@ -35,7 +45,7 @@ fn own_functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
     }
     let mut programs = Vec::new();
     for function in &table.functions {
-        programs.extend(one(table, function, &mut errors));
+        programs.extend(one(table, function, imported, &mut errors));
     }
     // A mistake in a name or helper that nothing uses is a mistake too.
     for named in &table.names {
@@ -50,21 +60,45 @@ fn own_functions(table: &Table) -> std::result::Result<Vec<Program>, Failure> {
 
 /// Checks the tables that a table imports, each once, by however many ways it is imported.
 /// What is wrong with one is said of it.
-pub(super) fn check_imports(table: &Table, checked: &mut HashSet<*const Table>) -> std::result::Result<(), Failure> {
+pub(super) fn check_imports(table: &Table, imported: &mut Imported) -> std::result::Result<(), Failure> {
     for import in &table.imports {
-        let Some(imported) = &import.table else { continue };
-        if imported.functions.is_empty() {
-            Program::check(imported)?;
-            let error = Diagnostic::error(codes::IMPORT, format!("`{}` has no functions", import.path.value));
-            let error = error.at(import.path.span, "a table of cases").help("only functions can be called");
-            return Err(Failure::new(table.source.clone(), error));
+        let Some(other) = &import.table else { continue };
+        if other.functions.is_empty() {
+            table
+                .since(2, import.path.span, "importing a table without functions")
+                .map_err(|error| Failure::new(table.source.clone(), error))?;
         }
-        if checked.insert(Arc::as_ptr(imported)) {
-            check_imports(imported, checked)?;
-            own_functions(imported)?;
+        if !imported.checked.insert(Arc::as_ptr(other)) {
+            continue;
+        }
+        if !other.functions.is_empty() {
+            check_imports(other, imported)?;
+            own_functions(other, imported)?;
+        } else if other.declares_only {
+            declarations(other)?;
+        } else {
+            let program = super::program_with(other, imported)?;
+            imported.programs.insert(Arc::as_ptr(other), Arc::new(program));
         }
     }
     Ok(())
+}
+
+/// Checks a table of nothing but level sets and constants.
+pub(in crate::program) fn declarations(table: &Table) -> std::result::Result<(), Failure> {
+    let mut imported = Imported::default();
+    check_imports(table, &mut imported)?;
+    let mut errors = Vec::new();
+    let mut lowering = Lowering::new(table, imported.programs);
+    lowering.declare(&[], &mut errors);
+    for (index, constant) in table.constants.iter().enumerate() {
+        keep(lowering.check_constant(index, &constant.name), &mut errors);
+    }
+    once(&mut errors);
+    match errors.is_empty() {
+        true => Ok(()),
+        false => Err(Failure { source: table.source.clone(), diagnostics: errors }),
+    }
 }
 
 /// The refusal when a table has no function of that name.
@@ -72,6 +106,10 @@ pub(in crate::program) fn no_function(table: &Table, name: Option<&str>) -> Fail
     let known: Vec<&str> = table.functions.iter().map(|function| function.name.value.as_str()).collect();
     let listed = format!("the functions are: {}", known.join(", "));
     let error = match (name, known.is_empty()) {
+        (_, true) if table.declares_only => {
+            Diagnostic::error(codes::NO_FUNCTION, format!("`{}` has neither cases nor functions", table.name.value))
+                .help("it declares level sets and constants for tables that import it")
+        }
         (None, _) => Diagnostic::error(codes::NO_FUNCTION, format!("`{}` is a table of functions", table.name.value))
             .help("name one of them, as in `--function ...`")
             .help(listed),
@@ -93,8 +131,13 @@ pub(in crate::program) fn no_function(table: &Table, name: Option<&str>) -> Fail
 }
 
 /// Checks one function.
-fn one(table: &Table, function: &table::Function, errors: &mut Vec<Diagnostic>) -> Option<Program> {
-    let mut lowering = Lowering::new(table);
+fn one(
+    table: &Table,
+    function: &table::Function,
+    imported: &Imported,
+    errors: &mut Vec<Diagnostic>,
+) -> Option<Program> {
+    let mut lowering = Lowering::new(table, imported.programs.clone());
     let mut inputs: Vec<&table::Input> = Vec::new();
     for name in &function.parameters {
         match table.inputs.iter().find(|input| input.name.value == name.value) {
@@ -266,6 +309,7 @@ impl<'t> Lowering<'t> {
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
             written: written::shared(table, &function.name.value),
+            decided: Vec::new(),
         })
     }
 

@@ -9,6 +9,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use std::sync::Arc;
 
+use super::lists::{List, Part};
 use super::terms::Term;
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, codes};
@@ -62,8 +63,27 @@ enum TermKey {
     Vector(Vec<ExprId>),
     Bool(CondId),
     Level(SetId, usize),
-    List(Vec<ExprId>),
+    List(Vec<PartKey>),
     Record(Vec<(String, TermKey)>),
+}
+
+/// A part of a list as an argument.
+#[derive(PartialEq, Eq, Hash)]
+enum PartKey {
+    Item(TermKey),
+    If(CondId, Vec<PartKey>, Vec<PartKey>),
+    Result(Vec<ExprId>),
+}
+
+impl PartKey {
+    fn all(list: &List) -> Vec<Self> {
+        let key = |part: &Part| match part {
+            Part::Item(term, _) => PartKey::Item(TermKey::of(term)),
+            Part::If(condition, then, other) => PartKey::If(*condition, Self::all(then), Self::all(other)),
+            Part::Result(_, components) => PartKey::Result(components.clone()),
+        };
+        list.parts().iter().map(key).collect()
+    }
 }
 
 impl TermKey {
@@ -73,7 +93,7 @@ impl TermKey {
             Term::Vector(parts) => TermKey::Vector(parts.clone()),
             Term::Bool(condition) => TermKey::Bool(*condition),
             Term::Level(set, term) => TermKey::Level(*set, place(term)),
-            Term::List(items) => TermKey::List(items.clone()),
+            Term::List(items) => TermKey::List(PartKey::all(items)),
             Term::Record(parts) => {
                 TermKey::Record(parts.iter().map(|(name, part)| (name.clone(), TermKey::of(part))).collect())
             }

@@ -3,20 +3,25 @@
 mod arithmetic;
 mod built_in;
 mod calls;
+mod collect;
 mod declare;
 mod draw;
 mod examples;
 mod functions;
 mod groups;
 mod images;
+mod known;
 mod levels;
 mod library;
+mod lists;
 mod memo;
 mod orbit;
 mod output;
 mod results;
 mod rows;
 mod scope;
+mod sets;
+mod tables;
 mod terms;
 #[cfg(test)]
 mod tests;
@@ -31,13 +36,15 @@ use super::pool::{InputSet, Pool};
 use super::{Assumption, InputId, Program, Written};
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::{self, Table, names};
+use library::Imported;
 use memo::Memo;
 use scope::Env;
+use tables::Programs;
 use terms::Term;
 
 pub use built_in::{Signature, signatures};
 pub use levels::LevelTerm;
-pub(super) use library::{functions, no_function};
+pub(super) use library::{declarations, functions, no_function};
 
 type Result<T> = std::result::Result<T, Diagnostic>;
 
@@ -66,6 +73,8 @@ struct Lowering<'t> {
     scopes: Vec<&'t Table>,
     /// The scope that an imported table has, by the scope that imports it and the name there.
     import_index: HashMap<(usize, &'t str), usize>,
+    /// The programs of the tables of cases that are imported, directly or not.
+    programs: Programs,
     /// The functions being called, outermost first, with their scopes.
     calling: Vec<(usize, &'t str)>,
     /// True if sine and cosine mean the portable ones.
@@ -78,6 +87,8 @@ struct Lowering<'t> {
     set_index: HashMap<&'t str, SetId>,
     /// The sets that inputs are the first to have, by their names.
     own_sets: HashMap<&'t str, SetId>,
+    /// The sets of imported tables that are asked for, by their scopes and their names there.
+    foreign_sets: HashMap<(usize, String), SetId>,
     /// True if the inputs are those of a function, some of those of the table.
     of_function: bool,
     case_index: HashMap<u32, usize>,
@@ -86,10 +97,15 @@ struct Lowering<'t> {
 
 /// Checks a table.
 pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
+    program_with(table, &mut Imported::default())
+}
+
+/// Checks a table, with the tables that were checked before.
+fn program_with(table: &Table, imported: &mut Imported) -> std::result::Result<Program, Failure> {
     let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
-    library::check_imports(table, &mut HashSet::new())?;
+    library::check_imports(table, imported)?;
     let mut errors = Vec::new();
-    let mut lowering = Lowering::new(table);
+    let mut lowering = Lowering::new(table, imported.programs.clone());
     // Without sound declarations nothing that follows could be judged.
     let inputs: Vec<&table::Input> = table.inputs.iter().collect();
     lowering.declare(&inputs, &mut errors);
@@ -109,7 +125,7 @@ pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
 }
 
 impl<'t> Lowering<'t> {
-    fn new(table: &'t Table) -> Self {
+    fn new(table: &'t Table, programs: Programs) -> Self {
         let mut lowering = Lowering {
             table,
             pool: Pool::default(),
@@ -125,6 +141,7 @@ impl<'t> Lowering<'t> {
             resolving: Vec::new(),
             scopes: Vec::new(),
             import_index: HashMap::new(),
+            programs,
             calling: Vec::new(),
             portable: false,
             memo: Memo::default(),
@@ -132,6 +149,7 @@ impl<'t> Lowering<'t> {
             input_index: HashMap::new(),
             set_index: HashMap::new(),
             own_sets: HashMap::new(),
+            foreign_sets: HashMap::new(),
             of_function: false,
             case_index: HashMap::new(),
             output: Rc::new(table::Output::Number(None)),
@@ -184,6 +202,9 @@ impl<'t> Lowering<'t> {
             begins.push(rows.len());
             rows.extend(keep(self.rows(case), errors).unwrap_or_default());
         }
+        if self.collects() {
+            let _ = keep(self.collect(&mut rows), errors);
+        }
         let env = Env::default();
         let default = keep(self.default_term(&env).and_then(|t| self.result(t, table.default.span)), errors);
         let assumptions = table.assumptions.iter().filter_map(|assumption| {
@@ -229,6 +250,7 @@ impl<'t> Lowering<'t> {
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
             written: Written { choices, ..written::written(table) },
+            decided: Vec::new(),
         })
     }
 }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::convert::Infallible;
 use std::rc::Rc;
 
-use super::scope::Env;
+use super::lists::List;
 use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
@@ -13,7 +13,6 @@ use crate::program::domain::LevelKind;
 use crate::program::operators::TernaryOp;
 use crate::program::pool::{ExprId, Node};
 use crate::table::Output;
-use crate::table::expr::Expr;
 
 /// A component of a value that is tied to the output, and the bounds that it is still to be clamped to.
 pub(super) struct Part {
@@ -37,6 +36,7 @@ impl Lowering<'_> {
     pub(super) fn declare_output(&mut self) -> Result<()> {
         let table = self.table;
         self.output = Rc::new(table.output.value.try_map(&mut |name| self.find_named_set(name))?);
+        self.check_collected()?;
         self.check_columns(table.output.span)
     }
 
@@ -119,6 +119,7 @@ impl Lowering<'_> {
     pub(super) fn components(&mut self, term: Term, span: Span) -> Result<Vec<Part>> {
         let mut parts = Vec::new();
         let output = self.output.clone();
+        let term = self.as_items(term, span);
         self.tie(&output, term, span, "the output", &mut parts)?;
         Ok(parts)
     }
@@ -152,7 +153,9 @@ impl Lowering<'_> {
             (Output::Enumeration(of), Term::Level(set, term)) if set == *of => {
                 parts.push(free(self.level_number(set, &term, |_, level| f64::from(level))));
             }
-            (Output::List { .. }, Term::List(values)) => parts.extend(values.into_iter().map(free)),
+            (Output::List { of, max, .. }, Term::List(list)) => {
+                parts.extend(self.list_components(&list, (of, *max), span)?.into_iter().map(free));
+            }
             (Output::Record(fields), Term::Record(values))
                 if values.len() == fields.len()
                     && fields.iter().all(|(name, _)| values.iter().any(|(other, _)| name == other)) =>
@@ -217,7 +220,7 @@ impl Lowering<'_> {
         Ok(parts.into_iter().map(|part| self.clamped(part)).collect())
     }
 
-    fn clamped(&mut self, Part { value, clamp }: Part) -> ExprId {
+    pub(super) fn clamped(&mut self, Part { value, clamp }: Part) -> ExprId {
         match clamp {
             None => value,
             Some((lo, hi)) => {
@@ -225,30 +228,6 @@ impl Lowering<'_> {
                 self.pool.ternary(TernaryOp::Clamp, value, lo, hi)
             }
         }
-    }
-
-    /// A list as its components: its length, its items, and zeros up to the most items.
-    pub(super) fn list(
-        &mut self,
-        items: &[Expr],
-        of: &Output<SetId>,
-        max: usize,
-        span: Span,
-        env: &Env,
-    ) -> Result<Term> {
-        if items.len() > max {
-            return Err(Diagnostic::error(codes::TYPE, format!("the list has {} items", items.len()))
-                .at(span, format!("the output allows at most {max}")));
-        }
-        let mut parts = vec![Part { value: self.pool.number(items.len() as f64), clamp: None }];
-        for item in items {
-            let term = self.term(item, env, Expected::of(of))?;
-            self.tie(of, term, item.span, "an item", &mut parts)?;
-        }
-        let mut parts: Vec<ExprId> = parts.into_iter().map(|part| self.clamped(part)).collect();
-        let zero = self.pool.number(0.0);
-        parts.resize(1 + max * of.size(), zero);
-        Ok(Term::List(parts))
     }
 
     /// The value that consists of some components.
@@ -261,7 +240,7 @@ impl Lowering<'_> {
                 let level = self.level_with_index(*set, components[0], &mut HashMap::new());
                 Term::Level(*set, level)
             }
-            Output::List { .. } => Term::List(components.to_vec()),
+            Output::List { .. } => Term::List(List::of_result(output, components)),
             Output::Record(fields) => {
                 let mut rest = components;
                 let part = |(name, of): &(String, Output<SetId>)| {

@@ -5,7 +5,7 @@
 //! row is lowered again in an environment in which some inputs mean something
 //! else. That is the whole treatment of `case(…)` and of `is:`.
 
-use std::sync::Arc;
+use std::rc::Rc;
 
 use super::scope::Env;
 use super::terms::{Expected, Term};
@@ -201,7 +201,7 @@ impl<'t> Lowering<'t> {
             overrides.insert(input, term);
         }
         let mut inner =
-            Env { overrides: Arc::new(overrides), cases: env.cases.clone(), referenced: true, ..Env::default() };
+            Env { overrides: Rc::new(overrides), cases: env.cases.clone(), referenced: true, ..Env::default() };
         inner.cases.push(id.value);
         let (_, lines, maps) = self.row_parts(id, &inner)?;
         // The default applies where no line does; the guard is not part of the value.

@@ -4,7 +4,6 @@
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::rc::Rc;
-use std::sync::Arc;
 
 use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
@@ -12,14 +11,14 @@ use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::pool::LevelSet;
 use crate::program::{InputId, LevelTerm};
 use crate::table::expr::{Expr, ExprKind};
-use crate::table::{self, names};
+use crate::table::{self, Output, names};
 use crate::text::closest::nearest;
 
 /// The meaning of names at some point.
 #[derive(Clone, Default)]
 pub(super) struct Env {
     /// Inputs that mean something else here.
-    pub(super) overrides: Arc<HashMap<InputId, Term>>,
+    pub(super) overrides: Rc<HashMap<InputId, Term>>,
     /// The terms of named values under these overrides.
     pub(super) names: Rc<RefCell<HashMap<usize, Term>>>,
     /// Names bound by `let`, innermost last.
@@ -66,8 +65,19 @@ impl Lowering<'_> {
                 return name[dot + 1..].split('.').try_fold(term, |term, part| self.swizzle(term, part, span));
             }
         }
-        // A level, where one is expected.
-        if let Expected::Level(set) = expected {
+        // A level, where one is expected. Where all cases count, an item stands for the list of it alone.
+        let item = if let Expected::Result(output) = &expected
+            && let Output::List { of, .. } = &**output
+            && let Output::Enumeration(set) = **of
+            && self.collects()
+        {
+            Some(set)
+        } else if let Expected::Level(set) = expected {
+            Some(set)
+        } else {
+            None
+        };
+        if let Some(set) = item {
             return match self.sets[set.0].find(name) {
                 Some(level) => Ok(self.level_of(set, LevelTerm::Const(level))),
                 None => Err(self.unknown_level(set, name, span)),
@@ -92,9 +102,12 @@ impl Lowering<'_> {
                 }
             }
         }
-        match self.named_constant(name, env)? {
+        if let Some(term) = self.named_constant(name, env)? {
+            return Ok(Some(term));
+        }
+        match self.named(name, env)? {
             Some(term) => Ok(Some(term)),
-            None => self.named(name, env),
+            None => self.imported_constant(name, env),
         }
     }
 
@@ -252,7 +265,11 @@ impl Lowering<'_> {
             return error.at(input.name.span, "is an input of the table, but not a parameter here");
         }
         if self.sets.iter().any(|set| set.names.iter().any(|n| n == name)) {
-            return error.help(format!("`{name}` is a level: compare an input with it, as in `input == {name}`"));
+            let error = error.help(format!("`{name}` is a level: compare an input with it, as in `input == {name}`"));
+            return match self.with_its_set(name).filter(|_| self.table.language.value >= 2) {
+                Some(typed) => error.help(format!("or say of which set it is, as in `{typed}`")),
+                None => error,
+            };
         }
         match nearest(name, inputs().into_iter().chain(names).chain(locals)) {
             Some(close) => error.help(format!("did you mean `{close}`?")),

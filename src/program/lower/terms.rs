@@ -6,6 +6,7 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
+use super::lists::List;
 use super::scope::Env;
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, codes};
@@ -34,8 +35,8 @@ pub(super) enum Term {
     Vector(Vec<ExprId>),
     Bool(CondId),
     Level(SetId, Arc<LevelTerm>),
-    /// A length and items, padded to the output's maximum.
-    List(Vec<ExprId>),
+    /// A list, by its parts.
+    List(List),
     /// Values with names.
     Record(Vec<(String, Term)>),
 }
@@ -58,10 +59,11 @@ impl Term {
     }
 
     /// The expressions and conditions that it consists of; levels have none.
-    fn parts(&self, exprs: &mut Vec<ExprId>, conditions: &mut Vec<CondId>) {
+    pub(super) fn parts(&self, exprs: &mut Vec<ExprId>, conditions: &mut Vec<CondId>) {
         match self {
             Term::Number(expr) => exprs.push(*expr),
-            Term::Vector(parts) | Term::List(parts) => exprs.extend(parts),
+            Term::Vector(parts) => exprs.extend(parts),
+            Term::List(list) => list.parts().iter().for_each(|part| part.parts(exprs, conditions)),
             Term::Bool(condition) => conditions.push(*condition),
             Term::Level(..) => {}
             Term::Record(parts) => parts.iter().for_each(|(_, part)| part.parts(exprs, conditions)),
@@ -98,6 +100,17 @@ impl Lowering<'_> {
         Ok(term)
     }
 
+    /// Refuses more different operations than a table may have.
+    pub(super) fn check_room(&self, span: Span) -> Result<()> {
+        if self.pool.len().max(self.pool.conditions()) <= MAX_TERMS {
+            return Ok(());
+        }
+        let message = "with names, references and calls written out, the table is too large";
+        Err(Diagnostic::error(codes::TOO_DEEP, message)
+            .at(span, "too much from here on")
+            .help(format!("at most {MAX_TERMS} different operations")))
+    }
+
     pub(super) fn check_size(&self, term: &Term, span: Span) -> Result<()> {
         let (mut exprs, mut conditions) = (Vec::new(), Vec::new());
         term.parts(&mut exprs, &mut conditions);
@@ -106,12 +119,7 @@ impl Lowering<'_> {
         if facts.is_empty() {
             return Ok(());
         }
-        if self.pool.len().max(self.pool.conditions()) > MAX_TERMS {
-            let message = "with names, references and calls written out, the table is too large";
-            return Err(Diagnostic::error(codes::TOO_DEEP, message)
-                .at(span, "too much from here on")
-                .help(format!("at most {MAX_TERMS} different operations")));
-        }
+        self.check_room(span)?;
         // What functions share is counted once, so their trees may be large.
         let max_size = if self.table.functions.is_empty() { MAX_SIZE } else { u32::MAX };
         for facts in facts {
@@ -137,6 +145,7 @@ impl Lowering<'_> {
         match &expr.kind {
             ExprKind::Number(value) => Ok(Term::Number(self.constant(*value, span)?)),
             ExprKind::Name(name) => self.name(name, span, env, expected),
+            ExprKind::Level(set, level) => self.typed_level(set, level, span, env.scope),
             ExprKind::Unary(ast::UnaryOp::Not, a) => {
                 let a = self.condition(a, env)?;
                 Ok(Term::Bool(self.pool.not(a)))
@@ -145,6 +154,7 @@ impl Lowering<'_> {
                 let a = self.term(a, env, Expected::Anything)?;
                 self.map1(UnaryOp::Negate, a, span)
             }
+            ExprKind::Binary(ast::BinaryOp::Join, a, b) => self.joined_lists([a, b], span, env, &expected),
             ExprKind::Binary(op, a, b) => self.binary(*op, a, b, span, env),
             ExprKind::In(value, levels) => self.membership(value, levels, env),
             ExprKind::Call(function, arguments) => {
@@ -170,26 +180,21 @@ impl Lowering<'_> {
                 self.label(&term, &name.value);
                 self.term(body, &env.with_local(name, term), expected)
             }
-            ExprKind::With(function, given) => match self.callee(&function.value, env.scope) {
-                Some(callee) => self.call_with(callee, given, span, env),
-                None => Err(self.unknown_function(function, env)),
-            },
+            ExprKind::With(function, given) => {
+                if let Some(callee) = self.callee(&function.value, env.scope) {
+                    return self.call_with(callee, given, span, env);
+                }
+                match self.called_table(&function.value, env.scope) {
+                    Some(table) => self.table_with(table, given, span, env),
+                    None => Err(self.unknown_function(function, env)),
+                }
+            }
             ExprKind::Between(body, variable, lo, hi) => self.between(body, variable, [lo, hi], span, env),
             ExprKind::Sum(variable, over, term) => self.sum(variable, over, term, span, env),
             ExprKind::Record(fields) => self.record(fields, span, env, &expected),
-            ExprKind::List(items) => {
-                if let Expected::Result(output) = &expected
-                    && let Output::List { of, max, .. } = &**output
-                {
-                    return self.list(items, of, *max, span, env);
-                }
-                Err(match self.output.has_list() {
-                    false => type_error(span, "a list", "only a table with `output: List(...)` has lists as values"),
-                    true => Diagnostic::error(codes::TYPE, "a list stands here, where none is expected")
-                        .at(span, "a list")
-                        .help("lists stand where the output has one: they have no names and are not calculated with"),
-                })
-            }
+            ExprKind::List(items) => self.list(items, span, env, &expected),
+            ExprKind::Optional(..) => Err(Diagnostic::error(codes::TYPE, "an item with a condition stands in a list")
+                .at(span, "not in a list of results")),
         }
     }
 
@@ -252,7 +257,7 @@ impl Lowering<'_> {
                 let (x, y) = if matches!(op, Op::Less | Op::LessEqual) { (x, y) } else { (y, x) };
                 Ok(Term::Bool(self.comparison(comparison, x, y)))
             }
-            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder => {
+            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder | Op::Join => {
                 let Some(op) = BinaryOp::of_symbol(op) else {
                     return Err(type_error(span, &format!("`{}`", op.symbol()), "expected an operation on numbers"));
                 };
@@ -287,7 +292,9 @@ impl Lowering<'_> {
             | ExprKind::Case(..)
             | ExprKind::If(..)
             | ExprKind::Let(..)
+            | ExprKind::Level(..)
             | ExprKind::List(_)
+            | ExprKind::Optional(..)
             | ExprKind::With(..)
             | ExprKind::Between(..)
             | ExprKind::Sum(..)
@@ -303,7 +310,11 @@ impl Lowering<'_> {
             (Term::Number(a), Term::Number(b)) => Ok(Term::Number(self.pool.select(condition, *a, *b))),
             (Term::Bool(a), Term::Bool(b)) => Ok(Term::Bool(self.pool.cond_if(condition, *a, *b))),
             (Term::Vector(a), Term::Vector(b)) if a.len() == b.len() => Ok(Term::Vector(zip(self, a, b))),
-            (Term::List(a), Term::List(b)) => Ok(Term::List(zip(self, a, b))),
+            (Term::List(a), Term::List(b)) => Ok(Term::List(match self.pool.truth(condition) {
+                Some(true) => a.clone(),
+                Some(false) => b.clone(),
+                None => List::either(condition, a.clone(), b.clone(), span)?,
+            })),
             (Term::Record(a), Term::Record(b)) if a.iter().map(|p| &p.0).eq(b.iter().map(|p| &p.0)) => {
                 let parts = a.iter().zip(b);
                 let part = |((name, a), (_, b)): (&(String, Term), &(String, Term))| {

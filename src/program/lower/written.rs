@@ -111,6 +111,10 @@ fn unused_names(table: &Table) -> Vec<Spanned<String>> {
             }
         }
     }
+    // What a table of cases is not called with means what it means here.
+    let called =
+        table.imports.iter().filter_map(|import| import.table.as_deref()).filter(|other| !other.cases.is_empty());
+    mentioned.extend(called.flat_map(|other| &other.inputs).map(|input| input.name.value.as_str()));
     // What a used name mentions is used, until nothing is added.
     let mut pending: Vec<_> = table.names.iter().collect();
     loop {
@@ -172,7 +176,7 @@ fn unused_helpers(table: &Table) -> Vec<Spanned<String>> {
 fn mentions<'t>(expr: &'t Expr, found: &mut HashSet<&'t str>) {
     let mut all = |parts: &[&'t Expr]| parts.iter().for_each(|part| mentions(part, found));
     match &expr.kind {
-        ExprKind::Number(_) => {}
+        ExprKind::Number(_) | ExprKind::Level(..) => {}
         ExprKind::Name(name) => {
             found.insert(name);
             if let Some((base, _)) = name.rsplit_once('.') {
@@ -180,7 +184,7 @@ fn mentions<'t>(expr: &'t Expr, found: &mut HashSet<&'t str>) {
             }
         }
         ExprKind::Unary(_, a) | ExprKind::In(a, _) | ExprKind::Swizzle(a, _) => all(&[a]),
-        ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) => all(&[a, b]),
+        ExprKind::Binary(_, a, b) | ExprKind::Let(_, a, b) | ExprKind::Optional(a, b) => all(&[a, b]),
         ExprKind::If(c, a, b) => all(&[c, a, b]),
         ExprKind::Call(_, items) | ExprKind::List(items) => items.iter().for_each(|item| mentions(item, found)),
         ExprKind::Case(_, set) | ExprKind::With(_, set) | ExprKind::Record(set) => {

@@ -123,7 +123,9 @@ pub(super) fn row(program: &Program, claim: Option<&[String]>) -> String {
             format!("to claim them: Case(id: {id}, when: Any([{}]), value: ...)", parts.join(", "))
         }
         (None, HitPolicy::First) => format!("to claim them: Case(id: {id}, when: true, value: ...) as the last case"),
-        (None, HitPolicy::Unique) => "`umbrage explain` says for each of them why no case is taken".to_owned(),
+        (None, HitPolicy::Unique | HitPolicy::Collect) => {
+            "`umbrage explain` says for each of them why no case is taken".to_owned()
+        }
     }
 }
 

@@ -42,7 +42,7 @@ pub(super) fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let mut uses = Uses::default();
     asked_in_conditions(program, &mut uses.taken);
     for (row, case) in program.rows.iter().enumerate() {
-        let mut rest = study.space.sets.and(study.rows.taken[row], study.assumed);
+        let mut rest = study.space.sets.and(study.counts(row), study.assumed);
         for line in &case.lines {
             let condition = study.space.condition(line.condition, View::PLAIN);
             let counts = study.space.sets.and(rest, condition);
