@@ -60,6 +60,10 @@ impl Lowering<'_> {
                 value = self.either(line.condition, &line.values, &value);
             }
             rest = self.either(row.guard, &value, &rest);
+            // Where the row is taken, its guard need not be asked again.
+            for line in &mut row.lines {
+                line.values = self.where_it_holds(row.guard, &line.values);
+            }
         }
         Ok(())
     }

@@ -68,13 +68,20 @@ impl Known {
 impl Lowering<'_> {
     /// Components that are chosen one by one, without asking inside of a side for what the choice has decided.
     pub(super) fn either(&mut self, condition: CondId, then: &[ExprId], other: &[ExprId]) -> Vec<ExprId> {
-        let [then, other] = [(then, true), (other, false)].map(|(side, holds)| {
-            let mut known = Known::default();
-            known.learn(&self.pool, condition, holds);
-            let mut done = HashMap::new();
-            side.iter().map(|expr| self.within(*expr, &known, &mut done)).collect::<Vec<ExprId>>()
-        });
-        then.iter().zip(other).map(|(then, other)| self.pool.select(condition, *then, other)).collect()
+        let [then, other] = [(then, true), (other, false)].map(|(side, holds)| self.side(condition, holds, side));
+        then.into_iter().zip(other).map(|(then, other)| self.pool.select(condition, then, other)).collect()
+    }
+
+    /// Components where a condition holds.
+    pub(super) fn where_it_holds(&mut self, condition: CondId, components: &[ExprId]) -> Vec<ExprId> {
+        self.side(condition, true, components)
+    }
+
+    fn side(&mut self, condition: CondId, holds: bool, components: &[ExprId]) -> Vec<ExprId> {
+        let mut known = Known::default();
+        known.learn(&self.pool, condition, holds);
+        let mut done = HashMap::new();
+        components.iter().map(|expr| self.within(*expr, &known, &mut done)).collect()
     }
 
     /// An expression where something is known.
