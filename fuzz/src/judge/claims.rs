@@ -9,6 +9,7 @@ use umbrage::diag::{Diagnostic, Span, codes};
 use umbrage::eval::{Interpreter, Precise};
 use umbrage::points::Point;
 use umbrage::program::{Comparison, Cond, CondId, ExprId, Node, Program, TernaryOp};
+use umbrage::table::HitPolicy;
 
 use super::Court;
 use super::points::{Known, read, words};
@@ -240,7 +241,11 @@ impl Claims<'_, '_, '_> {
             }
         }
         let ways = self.ways(&point);
-        if !ways.iter().any(|(taken, _)| *taken == Some(row)) {
+        let counts = match self.program.hit_policy {
+            HitPolicy::First | HitPolicy::Unique => ways.iter().any(|(taken, _)| *taken == Some(row)),
+            HitPolicy::Collect => self.holds(self.program.rows[row].guard, &point) == Some(true),
+        };
+        if !counts {
             self.false_claim(finding, format!("the case is not taken there: {ways:?}"));
         }
     }
