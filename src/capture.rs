@@ -140,8 +140,12 @@ pub fn write(program: &Program, columns: &Columns<f32>, out: &mut impl Write) ->
 /// # Errors
 /// When `out` cannot be written.
 pub fn write_csv(program: &Program, columns: &Columns<f32>, out: &mut impl Write) -> io::Result<()> {
-    let names: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
-    writeln!(out, "{}", names.join(","))?;
+    // A call of a fetch has commas in its name.
+    let names = program.inputs.iter().map(|input| match input.name.contains(',') {
+        true => format!("\"{}\"", input.name),
+        false => input.name.clone(),
+    });
+    writeln!(out, "{}", names.collect::<Vec<_>>().join(","))?;
     let mut line = String::new();
     for row in 0..columns.len() {
         line.clear();

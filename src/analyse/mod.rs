@@ -23,6 +23,7 @@ use sets::budget::STEPS;
 use sets::study::Study;
 
 pub use findings::accuracy::allowance;
+pub use findings::claims::{Counterexample, Verdict, verdicts as claims};
 pub use findings::coverage::{Coverage, Dead, coverage};
 pub use findings::examples::agrees;
 pub use findings::numbers::{Range, ranges};

@@ -287,6 +287,9 @@ fn one(
 
 /// Notes what a table imports, which may lie elsewhere.
 fn read_imports(table: &Table, batch: &mut Batch) {
+    for file in table.data_files() {
+        batch.reads(Path::new(&file.source.name));
+    }
     for imported in table.imports.iter().filter_map(|import| import.table.as_deref()) {
         batch.reads(Path::new(&imported.source.name));
         read_imports(imported, batch);

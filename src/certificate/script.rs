@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use super::Certificate;
 use crate::plan::Plan;
-use crate::program::{Domain, Program};
+use crate::program::{Domain, Input, Program};
 
 /// The text so far.
 pub(super) struct Script {
@@ -22,7 +22,12 @@ pub(super) struct Script {
 impl Script {
     /// The inputs: levels are integers that count from 0, numbers are real.
     pub(super) fn new(program: &Program) -> Self {
-        let inputs = program.inputs.iter().map(|input| format!("in.{}", input.name)).collect();
+        let symbol = |input: &Input| match input.call {
+            // A name with parentheses is no symbol of the language unless it stands between bars.
+            Some(_) => format!("|in.{}|", input.name),
+            None => format!("in.{}", input.name),
+        };
+        let inputs = program.inputs.iter().map(symbol).collect();
         let mut script =
             Self { body: String::new(), functions: BTreeSet::new(), beyond: BTreeSet::new(), definitions: 0, inputs };
         for (input, symbol) in program.inputs.iter().zip(script.inputs.clone()) {

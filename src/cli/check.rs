@@ -7,7 +7,7 @@ use super::fix::FixArguments;
 use super::messages;
 use super::messages::{Format, Report, plural};
 use super::{Outcome, Result, levels};
-use crate::analyse::{self, LintLevels};
+use crate::analyse::{self, LintLevels, Verdict};
 use crate::build;
 use crate::cli::output::stdout;
 use crate::diag::{Failure, Severity};
@@ -110,18 +110,19 @@ fn table(
         let examples = plural(programs.iter().map(|program| program.examples.len()).sum(), "example");
         if program.function.is_some() {
             let functions = plural(programs.len(), "function");
-            writeln!(out, "{verdict} {}: {functions}, {examples} run", program.source.name)?;
+            writeln!(out, "{verdict} {}: {functions}, {examples} run{}", program.source.name, claims(program))?;
             return Ok(outcome);
         }
         let fetched = program.fetched.iter().count();
         let inputs = plural(program.inputs.len(), "input");
         writeln!(
             out,
-            "{verdict} {}: {}, {inputs}{}, {}, {examples} run{}",
+            "{verdict} {}: {}, {inputs}{}, {}, {examples} run{}{}",
             program.source.name,
             plural(program.case_count(), "case"),
             if fetched > 0 { format!(" ({fetched} fetched)") } else { String::new() },
             plural(program.states.count(), "state"),
+            claims(program),
             match found.acknowledged.len() {
                 0 => String::new(),
                 count => format!(", {} acknowledged", plural(count, "finding")),
@@ -129,6 +130,20 @@ fn table(
         )?;
     }
     Ok(outcome)
+}
+
+/// The claims of a table in words: how many there are, and how many were tried out only.
+fn claims(program: &Program) -> String {
+    let verdicts = analyse::claims(program);
+    if verdicts.is_empty() {
+        return String::new();
+    }
+    let tried: Vec<&str> = (verdicts.iter())
+        .filter(|(_, verdict)| matches!(verdict, Verdict::Tried(_)))
+        .map(|(claim, _)| claim.name.as_str())
+        .collect();
+    let all = plural(verdicts.len(), "claim");
+    if tried.is_empty() { format!(", {all}") } else { format!(", {all} (tried, not proved: {})", tried.join(", ")) }
 }
 
 /// Shows diagnostics. As JSON they are what the command is asked for, so they go to standard output.

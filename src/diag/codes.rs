@@ -105,6 +105,8 @@ registry! {
     OUTSIDE_DOMAIN = "U0218", Failure, Error, "a row of data outside of the domain of the function";
     LIMIT_BROKEN = "U0219", Finding, Error, "a function is not what a limit claims";
     BUDGET_EXCEEDED = "U0220", Finding, Error, "a function is less accurate than it claims";
+    CLAIM_BROKEN = "U0221", Finding, Error, "a claim about constants or functions that does not hold";
+    DATA_FILE = "U0222", Failure, Error, "a file of constant data that cannot be read, or holds no numbers";
     // Names and declarations.
     BAD_NAME = "U0301", Failure, Error, "a name is not a plain identifier";
     RESERVED_NAME = "U0302", Failure, Error, "a name is reserved or would hide generated code";

@@ -3,8 +3,8 @@
 //! A module cannot see what the host supplies unless it imports it, so
 //! it is expected in a module of the host with a fixed name.
 
+use super::inputs::fetches;
 use super::language::Prefix;
-use super::names::fetches;
 use crate::prove::Proved;
 
 /// The line that imports what the host supplies, from the table's name and the items; empty if there is nothing.
@@ -23,7 +23,7 @@ fn supplied(proved: &Proved<'_>) -> Vec<String> {
     if !fetches.is_empty() {
         names.push(prefix.site());
     }
-    names.extend(fetches.iter().map(|(ident, _)| format!("{}_fetch_{ident}", prefix.lower)));
+    names.extend(fetches.iter().map(|fetch| format!("{}_fetch_{}", prefix.lower, fetch.ident)));
     if proved.plan().reads_lookup() {
         names.push(format!("{}_lookup", prefix.lower));
     }

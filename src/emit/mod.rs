@@ -11,6 +11,7 @@
 pub(crate) mod function;
 mod host;
 mod imports;
+mod inputs;
 pub mod kernel;
 mod language;
 mod module;

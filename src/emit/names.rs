@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::inputs::{fetch_ident, fetches, input_type};
 use super::language::{Dialect, Prefix};
 use crate::program::{Domain, InputId, LevelKind, Levels, Program, Scalar};
 
@@ -40,7 +41,7 @@ impl Names {
         let mut sets: Vec<Set> = Vec::new();
         let mut taken = BTreeSet::from([format!("{}_DEFAULT", prefix.upper)]);
         let mut functions: BTreeSet<String> =
-            fetches(program).into_iter().map(|(ident, _)| format!("fetch_{ident}")).collect();
+            fetches(program).into_iter().map(|fetch| format!("fetch_{}", fetch.ident)).collect();
         for input in &program.inputs {
             if let Domain::Discrete(levels) = &input.domain
                 && levels.kind != LevelKind::Bool
@@ -48,7 +49,7 @@ impl Names {
             {
                 // Constants are upper case, while inputs may differ in case only, and where
                 // set and level meet in a constant is not to be seen: `a_b` and `c`, `a` and `b_c`.
-                let mut name = input.ident.clone();
+                let mut name = fetch_ident(input).to_owned();
                 loop {
                     let constants = level_constants(&prefix, &name, levels);
                     if !constants.iter().any(|constant| taken.contains(constant))
@@ -63,6 +64,7 @@ impl Names {
             }
         }
         let mut hidden: BTreeSet<String> = program.inputs.iter().map(|input| input.ident.clone()).collect();
+        hidden.extend(program.inputs.iter().map(|input| fetch_ident(input).to_owned()));
         hidden.extend(["key".to_owned(), "site".to_owned(), prefix.result(), prefix.value(), prefix.site()]);
         hidden.extend(taken);
         let mut temporary = "t".to_owned();
@@ -125,19 +127,4 @@ fn level_constants(prefix: &Prefix, set: &str, levels: &Levels) -> Vec<String> {
         constants.push(name);
     }
     constants
-}
-
-/// The type of an input; `levels` is that of named and integer levels.
-pub(super) fn input_type(domain: &Domain, levels: Scalar) -> Scalar {
-    match domain {
-        Domain::Discrete(l) if l.kind == LevelKind::Bool => Scalar::Bool,
-        Domain::Discrete(_) => levels,
-        Domain::Continuous { .. } => Scalar::Float,
-    }
-}
-
-/// The inputs that are fetched, by identifier, in the order declared.
-pub(super) fn fetches(program: &Program) -> Vec<(String, Scalar)> {
-    let fetched = program.inputs.iter().filter(|input| input.fetched.is_some());
-    fetched.map(|input| (input.ident.clone(), input_type(&input.domain, Scalar::Uint))).collect()
 }

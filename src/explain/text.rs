@@ -4,6 +4,7 @@
 use std::fmt::Write;
 
 use super::{Explanation, Step, Tested};
+use crate::analyse;
 use crate::program::{InputId, Program};
 use crate::show::{Precision, sentence};
 
@@ -17,6 +18,7 @@ pub fn render(program: &Program, explanation: &Explanation, assumed: Assumed<'_>
     cases(&mut out, program, explanation);
     taken(&mut out, program, explanation);
     value(&mut out, program, explanation);
+    claims(&mut out, program);
     out
 }
 
@@ -132,6 +134,19 @@ fn value(out: &mut String, program: &Program, explanation: &Explanation) {
     let by = explanation.row.map_or("default".to_owned(), |row| format!("case {}", program.rows[row].id));
     let result = sentence(&program.output, &explanation.values, explanation.precision);
     let _ = writeln!(out, "result:  {result} ({by}, {precision})");
+}
+
+/// The claims that are made of what the table computes with, and whether they hold.
+fn claims(out: &mut String, program: &Program) {
+    let verdicts = analyse::claims(program);
+    if verdicts.is_empty() {
+        return;
+    }
+    out.push_str("\nclaims\n");
+    let width = verdicts.iter().map(|(claim, _)| claim.name.len()).max().unwrap_or(0);
+    for (claim, verdict) in verdicts {
+        line(out, &format!("{:width$}: {}{}", claim.name, verdict.words(), separated("; ", &claim.doc)));
+    }
 }
 
 /// A condition that holds, with the facts unless they only repeat it.

@@ -19,10 +19,42 @@ pub struct Input {
     pub doc: String,
     /// Cost in texture reads, for inputs that the host produces on demand.
     pub fetched: Option<f64>,
+    /// The call that fetches it, where the host's function takes arguments.
+    pub call: Option<FetchCall>,
     /// The value that examples and `explain` assume when they leave the input out.
     pub default: Option<Value>,
     /// The place of its declaration.
     pub span: Span,
+}
+
+/// A call of a function of the host that takes arguments. Each tuple of arguments that occurs
+/// is an input of its own, so that every later stage knows nothing but inputs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FetchCall {
+    /// The name of the function in the table.
+    pub function: String,
+    /// The name of the function in generated code.
+    pub ident: String,
+    /// The names of its arguments.
+    pub parameters: Vec<String>,
+    /// The arguments, as `f32` has them.
+    pub arguments: Vec<f32>,
+}
+
+impl FetchCall {
+    /// The call as it is written, which is the name of the input.
+    pub fn name(&self) -> String {
+        let arguments: Vec<String> = self.arguments.iter().map(f32::to_string).collect();
+        format!("{}({})", self.function, arguments.join(","))
+    }
+
+    /// Returns whether a word is this call, blanks and the spelling of numbers aside.
+    fn is_written(&self, word: &str) -> bool {
+        let Some((function, rest)) = word.split_once('(') else { return false };
+        let Some(list) = rest.trim_end().strip_suffix(')') else { return false };
+        let arguments: Option<Vec<f32>> = list.split(',').map(|number| number.trim().parse().ok()).collect();
+        function.trim_end() == self.function && arguments.as_ref() == Some(&self.arguments)
+    }
 }
 
 /// The values an input can take.
@@ -157,6 +189,11 @@ impl StateSpace {
 }
 
 impl Input {
+    /// Returns whether a word in data means this input.
+    pub fn is_called(&self, word: &str) -> bool {
+        self.name == word || self.call.as_ref().is_some_and(|call| call.is_written(word))
+    }
+
     /// The value in place of an input that is not fetched: the least number, or the number of the first level.
     pub fn least(&self) -> f64 {
         match self.domain {

@@ -240,6 +240,7 @@ impl Program {
             examples,
             function: None,
             continuity,
+            claims: self.claims.clone(),
             allow: self.allow.clone(),
             exhibit: self.exhibit.clone(),
             written: Written::default(),

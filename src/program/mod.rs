@@ -17,6 +17,7 @@
 // A new operation, step or target must be thought of wherever one is told from another.
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod claimed;
 pub(crate) mod claims;
 pub(crate) mod comparisons;
 pub mod data_type;
@@ -47,8 +48,9 @@ use std::sync::Arc;
 use crate::diag::{Failure, Source, Span, Spanned};
 use crate::table::{Allow, Erratum, HitPolicy, Table};
 
+pub use claimed::{Claim, ClaimedPair, Claims};
 pub use data_type::{Component, DataType, Scalar};
-pub use domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
+pub use domain::{Domain, FetchCall, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 pub use lower::{LevelTerm, Signature, signatures};
 pub use meaning::Kinship;
 pub use operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
@@ -82,7 +84,7 @@ impl InputId {
 pub struct Program {
     /// The file it came from.
     pub source: Arc<Source>,
-    /// The texts of the tables that it imports, directly or not.
+    /// The texts of the tables that it imports, directly or not, and of the files of data that they name.
     pub imported: Vec<Arc<Source>>,
     /// Name, and prefix of everything generated.
     pub name: String,
@@ -120,6 +122,8 @@ pub struct Program {
     pub function: Option<Function>,
     /// The places where the value is meant to have no jumps.
     pub continuity: Vec<Continuity>,
+    /// The claims of the table; of its functions the first one has them.
+    pub claims: Option<Box<Claims>>,
     /// Findings about the table as a whole that are known and stay.
     pub allow: Vec<Allow>,
     /// Set for a table that is kept to be looked at, mistakes included, with the reason.
@@ -137,6 +141,8 @@ pub struct Written {
     pub unused_names: Vec<Spanned<String>>,
     /// Helpers that nothing calls.
     pub unused_helpers: Vec<Spanned<String>>,
+    /// Fetches with arguments that nothing calls.
+    pub unused_fetches: Vec<Spanned<String>>,
     /// Numbers that no `f32` equals.
     pub inexact: Vec<(f64, Span)>,
     /// Operands of `&&` and `||` that stand there twice, with the first place.
@@ -395,7 +401,7 @@ impl Program {
 
     /// The input with a name.
     pub fn input(&self, name: &str) -> Option<InputId> {
-        self.inputs.iter().position(|i| i.name == name).map(InputId::new)
+        self.inputs.iter().position(|i| i.is_called(name)).map(InputId::new)
     }
 
     /// The inputs that no result depends on.

@@ -68,6 +68,10 @@ pub fn page(program: &Program, known: Known<'_>) -> Result<String, Failure> {
         p { "A plan is a way to find the case. Code is made only of plans that are proved equal to the table." }
         (code::plans(program))
         @if let Some((device, choice)) = known.tuned { (tuning(device, choice)) }
+        @if program.claims.is_some() {
+            h2 id="claims" { "Claims" }
+            (claims(program))
+        }
         h2 id="code" { "Generated code" }
         (code::code(program))
         h2 id="source" { "The table as written" }
@@ -119,6 +123,19 @@ fn inputs(program: &Program) -> Markup {
                         td { @if let Some(cost) = input.fetched { (cost) " reads" } }
                         td { (input.doc) }
                     }
+                }
+            }
+        }
+    }
+}
+
+fn claims(program: &Program) -> Markup {
+    html! {
+        div.wide {
+            table {
+                tr { th { "claim" } th { "what it is" } th { "verdict" } }
+                @for (claim, verdict) in analyse::claims(program) {
+                    tr { td { code { (claim.name) } } td { (claim.doc) } td { (verdict.words()) } }
                 }
             }
         }

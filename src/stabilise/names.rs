@@ -84,7 +84,10 @@ impl Taken {
     fn mentioned(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Name(name) => self.take(name),
-            ExprKind::Call(name, _) | ExprKind::Let(name, ..) | ExprKind::Between(_, name, ..) => {
+            ExprKind::Call(name, _)
+            | ExprKind::Let(name, ..)
+            | ExprKind::Between(_, name, ..)
+            | ExprKind::Iterate(_, name, ..) => {
                 self.take(&name.value);
             }
             ExprKind::Sum(name, over, _) => {
@@ -106,6 +109,7 @@ impl Taken {
             | ExprKind::Binary(..)
             | ExprKind::Swizzle(..)
             | ExprKind::If(..)
+            | ExprKind::Index(..)
             | ExprKind::List(_) => {}
         }
         expr.parts().into_iter().for_each(|part| self.mentioned(part));
@@ -119,6 +123,7 @@ fn expressions(table: &Table) -> Vec<&Expr> {
         match &constant.value {
             ConstantValue::Number(value) => all.push(value),
             ConstantValue::List(items) => all.extend(items.iter().flatten()),
+            ConstantValue::Levels { .. } | ConstantValue::File(..) => {}
         }
     }
     all.extend(

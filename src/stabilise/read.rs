@@ -133,6 +133,8 @@ impl<'t> Reader<'t> {
                 Err("it is a choice, and rules know formulas only".to_owned())
             }
             ExprKind::Sum(..)
+            | ExprKind::Iterate(..)
+            | ExprKind::Index(..)
             | ExprKind::List(_)
             | ExprKind::Optional(..)
             | ExprKind::Level(..)
@@ -175,7 +177,9 @@ impl<'t> Reader<'t> {
         }
         match table.constants.iter().find(|constant| constant.name.value == name).map(|c| &c.value) {
             Some(ConstantValue::Number(value)) => self.expr(value, env),
-            Some(ConstantValue::List(_)) => Err(format!("`{name}` is a list")),
+            Some(ConstantValue::List(_) | ConstantValue::Levels { .. } | ConstantValue::File(..)) => {
+                Err(format!("`{name}` is a list"))
+            }
             None => Ok(Poly::var(name)),
         }
     }
@@ -264,7 +268,8 @@ pub(super) fn is_singular(table: &Table, function: &Function) -> bool {
             ExprKind::Unary(_, a) | ExprKind::Swizzle(a, _) | ExprKind::Sum(_, _, a) | ExprKind::In(a, _) => {
                 own.push(a)
             }
-            ExprKind::If(a, b, c) => own.extend([&**a, &**b, &**c]),
+            ExprKind::If(a, b, c) | ExprKind::Iterate(a, _, b, c) => own.extend([&**a, &**b, &**c]),
+            ExprKind::Index(_, indices) => own.extend(indices),
             ExprKind::List(items) => own.extend(items),
             ExprKind::With(_, set) | ExprKind::Record(set) | ExprKind::Case(_, set) => {
                 own.extend(set.iter().map(|(_, value)| value));

@@ -48,6 +48,10 @@ pub enum ExprKind {
     Between(Box<Expr>, Spanned<String>, Box<Expr>, Box<Expr>),
     /// `sum(n in nodes, term)`.
     Sum(Spanned<String>, SumOver, Box<Expr>),
+    /// `iterate(n, x = start, step)`: the step n times, each time of what the one before gave.
+    Iterate(Box<Expr>, Spanned<String>, Box<Expr>, Box<Expr>),
+    /// `curve[i]`, `m[i, j]`: an item of constant data.
+    Index(Box<Expr>, Vec<Expr>),
     /// `{x: a, y: b}`: several named numbers.
     Record(Vec<(Spanned<String>, Expr)>),
 }
@@ -79,6 +83,8 @@ impl Expr {
             }
             ExprKind::Sum(_, SumOver::Items(_), term) => vec![&**term],
             ExprKind::Sum(_, SumOver::Range(lo, hi), term) => vec![&**lo, &**hi, &**term],
+            ExprKind::Iterate(count, _, start, step) => vec![&**count, &**start, &**step],
+            ExprKind::Index(list, indices) => std::iter::once(&**list).chain(indices).collect(),
         }
     }
 
@@ -95,6 +101,8 @@ impl Expr {
             }
             ExprKind::Sum(_, SumOver::Items(_), term) => vec![&mut **term],
             ExprKind::Sum(_, SumOver::Range(lo, hi), term) => vec![&mut **lo, &mut **hi, &mut **term],
+            ExprKind::Iterate(count, _, start, step) => vec![&mut **count, &mut **start, &mut **step],
+            ExprKind::Index(list, indices) => std::iter::once(&mut **list).chain(indices).collect(),
         }
     }
 }

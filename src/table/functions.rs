@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::Deserialize;
 
 use super::expr::{Expr, ExprKind};
-use super::{Assumption, Case, Erratum, Example, Line, Named, Table};
+use super::{Assumption, Case, DataFile, Erratum, Example, Line, Named, Table};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::text::raw::{Raw, RawMap, Reader, Shape};
 
@@ -100,8 +100,17 @@ pub struct Constant {
 pub enum ConstantValue {
     /// One number.
     Number(Expr),
-    /// A list of numbers, or of up to four numbers each.
+    /// A list of numbers, or of several numbers each.
     List(Vec<Vec<Expr>>),
+    /// A list of levels of a set, or of several levels each.
+    Levels {
+        /// The set, or an input that has it.
+        of: Spanned<String>,
+        /// The levels, item by item.
+        items: Vec<Vec<Spanned<String>>>,
+    },
+    /// Numbers in a file, relative to that of the table, and what is in it, once it is read.
+    File(Spanned<String>, Option<Arc<DataFile>>),
 }
 
 /// Another table whose functions are called in this one.
@@ -158,6 +167,13 @@ struct AccuracyRon<'a> {
     #[serde(borrow)]
     times: Raw<'a>,
     scale: Raw<'a>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+enum DataRon<'a> {
+    File(#[serde(borrow)] Raw<'a>),
+    Levels { of: Raw<'a>, values: Vec<Raw<'a>> },
 }
 
 impl<'a> Reader<'a> {
@@ -218,7 +234,7 @@ impl<'a> Reader<'a> {
 
     /// `"sinc(x)": "..."` or `"sinc(x)": [("...", "abs(x) < 1"), "sin(x) / x"]`
     pub(super) fn helper(&self, signature: Raw<'a>, raw: Raw<'a>) -> Result<Helper> {
-        let (name, parameters) = self.signature(signature)?;
+        let (name, parameters) = self.called(signature, "a helper", "\"sinc(x)\"")?;
         let lines = match self.shape(raw) {
             Shape::List => {
                 self.get::<Vec<Raw<'a>>>(raw)?.into_iter().map(|line| self.line(line)).collect::<Result<Vec<_>>>()?
@@ -240,11 +256,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn signature(&self, raw: Raw<'a>) -> Result<(Spanned<String>, Vec<Spanned<String>>)> {
+    /// A name with parameters, declared as it is called.
+    pub(super) fn called(
+        &self,
+        raw: Raw<'a>,
+        what: &str,
+        such_as: &str,
+    ) -> Result<(Spanned<String>, Vec<Spanned<String>>)> {
         let malformed = || {
-            Diagnostic::error(codes::FUNCTION_SHAPE, "this is not how a helper is declared")
+            Diagnostic::error(codes::FUNCTION_SHAPE, format!("this is not how {what} is declared"))
                 .at(self.span(raw), "expected a name and its parameters")
-                .help("write it as it is called, for instance \"sinc(x)\"")
+                .help(format!("write it as it is called, for instance {such_as}"))
         };
         let ExprKind::Call(name, arguments) = self.expr(raw).map_err(|_| malformed())?.kind else {
             return Err(malformed());
@@ -256,18 +278,47 @@ impl<'a> Reader<'a> {
         Ok((name, parameters.collect::<Result<_>>()?))
     }
 
-    pub(super) fn constant(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Constant> {
+    /// Constant data, and whether version 1 of the language has it.
+    pub(super) fn constant(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<(Constant, bool)> {
+        let mut is_early = true;
         let value = match self.shape(raw) {
             Shape::List => {
                 let items = self.get::<Vec<Raw<'a>>>(raw)?.into_iter().map(|item| match self.shape(item) {
                     Shape::Tuple => self.numbers(item),
+                    Shape::List => {
+                        is_early = false;
+                        self.get::<Vec<Raw<'a>>>(item)?.into_iter().map(|number| self.expr(number)).collect()
+                    }
                     _ => Ok(vec![self.expr(item)?]),
                 });
                 ConstantValue::List(items.collect::<Result<_>>()?)
             }
+            Shape::Variant("Levels" | "File") => match self.get(raw)? {
+                DataRon::File(path) => {
+                    is_early = false;
+                    ConstantValue::File(self.spanned(path)?, None)
+                }
+                DataRon::Levels { of, values } => {
+                    is_early = false;
+                    let items = values.into_iter().map(|item| match self.shape(item) {
+                        Shape::List => {
+                            self.get::<Vec<Raw<'a>>>(item)?.into_iter().map(|level| self.word(level)).collect()
+                        }
+                        _ => Ok(vec![self.word(item)?]),
+                    });
+                    let items = items.collect::<Result<Vec<Vec<_>>>>()?;
+                    let width = items.first().map_or(0, Vec::len);
+                    if let Some(odd) = items.iter().find(|item| item.len() != width || width == 0) {
+                        let at = odd.first().map_or(self.span(raw), |level| level.span);
+                        return Err(Diagnostic::error(codes::STRUCTURE, "items that differ in length")
+                            .at(at, format!("not {width} levels")));
+                    }
+                    ConstantValue::Levels { of: self.word(of)?, items }
+                }
+            },
             _ => ConstantValue::Number(self.expr(raw)?),
         };
-        Ok(Constant { name: self.word(name)?, value })
+        Ok((Constant { name: self.word(name)?, value }, is_early))
     }
 
     /// `(0.5, "1 / 3")`: two to four numbers.

@@ -23,6 +23,7 @@ pub(super) fn resolve(table: Table) -> Result<Table, Failure> {
 
 /// Reads what a table at the end of a chain of imports imports, and counts the tables of the longest chain from it on.
 fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known) -> Result<(Table, usize), Failure> {
+    super::data::resolve(&mut table)?;
     let source = table.source.clone();
     let fail = |diagnostic| Failure::new(source.clone(), diagnostic);
     let mut imports = std::mem::take(&mut table.imports);

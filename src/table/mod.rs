@@ -6,6 +6,8 @@
 //! Names are resolved, types checked and references followed by
 //! [`crate::program`]; nothing past that point looks at RON again.
 
+mod claims;
+mod data;
 pub mod draw;
 pub mod expr;
 mod functions;
@@ -24,6 +26,8 @@ use crate::diag::{Diagnostic, Failure, Source, Span, Spanned};
 use crate::text::file::{read_text, shown};
 use expr::Expr;
 
+pub use claims::Claim;
+pub use data::DataFile;
 pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
 pub(crate) use output::MAX_FIELDS;
 pub use output::{Output, Same};
@@ -80,6 +84,8 @@ pub struct Table {
     pub functions: Vec<Function>,
     /// The places where the value is meant to have no jumps.
     pub continuity: Vec<Continuity>,
+    /// Claims about constants, helpers and functions.
+    pub claims: Vec<Claim>,
     /// Findings about the table as a whole that are known and stay.
     pub allow: Vec<Allow>,
     /// Set for a table that is kept to be looked at, mistakes included, with the reason.
@@ -119,6 +125,8 @@ pub struct Input {
     pub doc: String,
     /// Set for inputs that the host produces on demand, with their cost in texture reads.
     pub fetched: Option<Spanned<f64>>,
+    /// The arguments that a fetch of it takes; mostly none.
+    pub parameters: Vec<Spanned<String>>,
     /// The value that examples and `explain` assume when they leave the input out.
     pub default: Option<Expr>,
 }
@@ -341,6 +349,14 @@ impl Table {
     /// Refuses what a later version of the language brings.
     pub(crate) fn since(&self, version: u32, span: Span, what: &str) -> Result<(), Diagnostic> {
         read::since(version, &self.language, span, what)
+    }
+
+    /// The files of constant data that it names, once they are read.
+    pub(crate) fn data_files(&self) -> impl Iterator<Item = &DataFile> {
+        self.constants.iter().filter_map(|constant| match &constant.value {
+            ConstantValue::File(_, read) => read.as_deref(),
+            ConstantValue::Number(_) | ConstantValue::List(_) | ConstantValue::Levels { .. } => None,
+        })
     }
 
     /// Reads a table from a file.

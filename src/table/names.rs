@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 
 /// Longest accepted name, in characters.
-const MAX_LENGTH: usize = 64;
+pub(crate) const MAX_LENGTH: usize = 64;
 
 /// The words of WGSL, GLSL, Rust and of the expression language itself, each
 /// with the languages that claim it. HLSL and MSL are written by naga, which

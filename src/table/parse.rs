@@ -265,10 +265,21 @@ impl<'a> Parser<'a> {
     fn postfix(&mut self) -> Result<Expr, Diagnostic> {
         let mut expr = self.primary()?;
         let mut links = 0;
-        while self.eat(".") {
+        while let Token::Symbol(symbol @ ("." | "[")) = self.peek() {
             links += 1;
             if self.depth + links > MAX_DEPTH {
                 return Err(too_deep(self.span()));
+            }
+            let open = self.next().0;
+            if symbol == "[" {
+                let (indices, end) = self.arguments("]", open)?;
+                if indices.is_empty() {
+                    return Err(Diagnostic::error(codes::EXPRESSION, "an item of a list without an index")
+                        .at(open.to(end), "expected an index, as in `curve[i]`"));
+                }
+                let span = expr.span.to(end);
+                expr = Expr { span, kind: ExprKind::Index(Box::new(expr), indices) };
+                continue;
             }
             let swizzle = self.name("a component such as `x` or `xy`")?;
             let span = expr.span.to(swizzle.span);
@@ -305,6 +316,9 @@ impl<'a> Parser<'a> {
                 if self.eat("(") {
                     if word == "sum" && matches!(self.tokens.get(self.at + 1), Some((_, Token::Word("in")))) {
                         return self.sum(start, open);
+                    }
+                    if word == "iterate" && self.binds_second() {
+                        return self.iterate(start, open);
                     }
                     if matches!(self.peek(), Token::Word(_))
                         && matches!(self.tokens.get(self.at + 1), Some((_, Token::Symbol("="))))
@@ -400,6 +414,38 @@ impl<'a> Parser<'a> {
         Ok(Expr { span: start.to(end), kind: ExprKind::Sum(variable, over, Box::new(term)) })
     }
 
+    /// Returns whether the second of the arguments that stand here begins with `name =`.
+    fn binds_second(&self) -> bool {
+        let mut open = 0_usize;
+        for (at, (_, token)) in self.tokens.iter().enumerate().skip(self.at) {
+            match token {
+                Token::Symbol("(" | "[" | "{") => open += 1,
+                Token::Symbol(")" | "]" | "}") if open == 0 => return false,
+                Token::Symbol(")" | "]" | "}") => open -= 1,
+                Token::Symbol(",") if open == 0 => {
+                    let next = |beyond: usize| self.tokens.get(at + beyond).map(|(_, token)| *token);
+                    return matches!((next(1), next(2)), (Some(Token::Word(_)), Some(Token::Symbol("="))));
+                }
+                Token::Symbol(_) | Token::Number(_) | Token::Word(_) | Token::End => {}
+            }
+        }
+        false
+    }
+
+    /// `iterate(3, x = 1, 0.5 * (x + a / x))`
+    fn iterate(&mut self, start: Span, open: Span) -> Result<Expr, Diagnostic> {
+        let count = self.bracketed(|p| p.binary(0))?;
+        self.expect(",")?;
+        let variable = self.name("the name of the value")?;
+        self.expect("=")?;
+        let first = self.bracketed(|p| p.binary(0))?;
+        self.expect(",")?;
+        let step = self.bracketed(|p| p.binary(0))?;
+        let end = self.close(")", open)?;
+        let kind = ExprKind::Iterate(Box::new(count), variable, Box::new(first), Box::new(step));
+        Ok(Expr { span: start.to(end), kind })
+    }
+
     /// `{x: a, y: b}`
     fn record(&mut self) -> Result<Expr, Diagnostic> {
         let open = self.next().0;
@@ -486,6 +532,8 @@ fn check_depth(expr: &Expr, depth: usize) -> Result<(), Diagnostic> {
             }
             below(term)
         }
+        ExprKind::Iterate(count, _, start, step) => below(count).and_then(|()| below(start)).and_then(|()| below(step)),
+        ExprKind::Index(list, indices) => below(list).and_then(|()| indices.iter().try_for_each(below)),
     }
 }
 
@@ -533,6 +581,12 @@ mod tests {
                 format!("sum({} in {} .. {}, {})", x.value, shape(lo), shape(hi), shape(term))
             }
             ExprKind::Record(set) => format!("{{{}}}", fields(set, ": ")),
+            ExprKind::Iterate(n, x, start, step) => {
+                format!("iterate({}, {} = {}, {})", shape(n), x.value, shape(start), shape(step))
+            }
+            ExprKind::Index(list, indices) => {
+                format!("{}[{}]", shape(list), indices.iter().map(shape).collect::<Vec<_>>().join(", "))
+            }
         }
     }
 
@@ -572,6 +626,9 @@ mod tests {
         assert_eq!(parsed("f(p = a, q = b + 1)"), "f(p = a, q = (b + 1))");
         assert_eq!(parsed("sum(n in nodes, n.x * f(n.y))"), "sum(n in nodes, (n.x * f(n.y)))");
         assert_eq!(parsed("sum(i in 0..3, i)"), "sum(i in 0 .. 3, i)");
+        assert_eq!(parsed("iterate(f(1, 2), x = a, x + b)"), "iterate(f(1, 2), x = a, (x + b))");
+        assert_eq!(parsed("iterate(1, 2) + iterate(f(y = 1), 2)"), "(iterate(1, 2) + iterate(f(y = 1), 2))");
+        assert_eq!(parsed("m[i][j + 1].x * m[i, j]"), "(m[i][(j + 1)].x * m[i, j])");
         assert_eq!(parsed("let q = 1; {x: a + q, y: -b}"), "let q = 1; {x: (a + q), y: (-b)}");
     }
 
@@ -612,6 +669,9 @@ mod tests {
             "a".to_owned() + &" | x = a .. b".repeat(10_000),
             "{x:".repeat(10_000),
             "sum(x in a, ".repeat(10_000),
+            "iterate(1, x = 1, ".repeat(10_000),
+            "a".to_owned() + &"[b]".repeat(10_000),
+            "a[".repeat(10_000),
             stairs,
         ] {
             assert!(parsed(&text).contains("nested deeper"), "{}", parsed(&text));

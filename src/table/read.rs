@@ -7,6 +7,7 @@
 use serde::Deserialize;
 
 use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
+use super::parse::expression;
 use super::{
     Allow, Assumption, Case, CaseBody, Continuity, ContinuityKind, Domain, Erratum, Example, Group, HitPolicy, Image,
     Input, LANGUAGE, Level, Line, Named, Output, ResultMap, Symmetry, Table,
@@ -45,6 +46,8 @@ struct TableRon<'a> {
     draw: RawMap<'a>,
     #[serde(default = "RawMap::empty")]
     continuity: RawMap<'a>,
+    #[serde(default = "RawMap::empty")]
+    claims: RawMap<'a>,
     #[serde(default)]
     allow: Vec<Raw<'a>>,
     #[serde(default)]
@@ -228,20 +231,36 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
     if let Some((group, _)) = ron.groups.0.first() {
         errors.take(since(2, &language, read.span(*group), "`groups`"));
     }
+    if let Some((claim, _)) = ron.claims.0.first() {
+        errors.take(since(2, &language, read.span(*claim), "`claims`"));
+    }
     let name = errors.take(read.spanned::<String>(ron.name));
     let decision = errors.take(read.decision(&ron, &language));
     let levels = errors.each(ron.levels.0, |(n, v)| Ok((read.word(n)?, read.levels(&read.get(v)?)?)));
-    let inputs = errors.each(ron.inputs.map_or_else(Vec::new, |map| map.0), |(n, v)| read.input(n, v));
+    let inputs = errors.each(ron.inputs.map_or_else(Vec::new, |map| map.0), |(n, v)| {
+        let input = read.input(n, v)?;
+        if !input.parameters.is_empty() {
+            since(2, &language, input.name.span, "a fetch with arguments")?;
+        }
+        Ok(input)
+    });
     let groups = errors.each(ron.groups.0, |(n, v)| read.group(n, v));
     let names = errors.each(ron.names.0, |(n, v)| Ok(Named { name: read.word(n)?, value: read.condition(v)? }));
     let symmetries = errors.each(ron.symmetries.0, |(n, v)| read.symmetry(n, v));
     let assumptions = errors.each(ron.assume.0, |(n, v)| read.assumption(n, v));
     let draw = errors.each(ron.draw.0, |(n, v)| read.draw(n, v));
     let continuity = errors.each(ron.continuity.0, |(n, v)| read.continuity(n, v));
+    let claims = errors.each(ron.claims.0, |(n, v)| read.claim(n, v));
     let allow = errors.each(ron.allow, |raw| read.allow(raw));
     let cases = errors.each(ron.cases.unwrap_or_default(), |raw| read.case(raw));
     let imports = errors.each(ron.imports.0, |(n, v)| read.import(n, v));
-    let constants = errors.each(ron.constants.0, |(n, v)| read.constant(n, v));
+    let constants = errors.each(ron.constants.0, |(n, v)| {
+        let (constant, is_early) = read.constant(n, v)?;
+        if !is_early {
+            since(2, &language, read.span(v), "such data")?;
+        }
+        Ok(constant)
+    });
     let helpers = errors.each(ron.helpers.0, |(n, v)| read.helper(n, v));
     let functions = errors.each(ron.functions.map_or_else(Vec::new, |map| map.0), |(n, v)| read.function(n, v));
     match (name, decision) {
@@ -268,6 +287,7 @@ pub(super) fn table(source: &Arc<Source>) -> std::result::Result<Table, Vec<Diag
                 helpers,
                 functions,
                 continuity,
+                claims,
                 allow,
                 exhibit: ron.exhibit,
                 declares_only,
@@ -448,7 +468,11 @@ impl<'a> Reader<'a> {
         let fetched =
             fetched.map(|raw| Ok(Spanned::new(self.span(raw), self.get::<FetchedRon>(raw)?.cost))).transpose()?;
         let default = default.map(|raw| self.level_or_expr(raw)).transpose()?;
-        Ok(Input { name: self.word(name)?, domain: Spanned::new(span, domain), doc, fetched, default })
+        let (name, parameters) = match self.word(name)? {
+            word if word.value.contains('(') => self.called(name, "a fetch with arguments", "\"light(dx, dy)\"")?,
+            word => (word, Vec::new()),
+        };
+        Ok(Input { name, domain: Spanned::new(span, domain), doc, fetched, parameters, default })
     }
 
     /// A level by its quoted or bare name, or an expression.
@@ -534,7 +558,10 @@ impl<'a> Reader<'a> {
             }
             _ => vec![self.word(levels)?],
         };
-        let input = Expr { span: name.span, kind: ExprKind::Name(name.value) };
+        let input = match name.value.contains('(') {
+            true => expression(&name.value, name.span.start + 1)?,
+            false => Expr { span: name.span, kind: ExprKind::Name(name.value) },
+        };
         Ok(Expr { span, kind: ExprKind::In(Box::new(input), levels) })
     }
 

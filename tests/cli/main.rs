@@ -4,6 +4,7 @@
 mod atlas;
 mod bad_input;
 mod certificates;
+mod constructs;
 mod eval;
 mod explain;
 mod files;

@@ -6,6 +6,7 @@ mod batch;
 #[cfg(feature = "trial")]
 mod certificates;
 mod constants;
+mod constructs;
 mod emitted_names;
 mod emitted_rust;
 mod generated;

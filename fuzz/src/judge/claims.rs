@@ -8,7 +8,7 @@ use umbrage::analyse::Findings;
 use umbrage::diag::{Diagnostic, Span, codes};
 use umbrage::eval::{Interpreter, Precise};
 use umbrage::points::Point;
-use umbrage::program::{Comparison, Cond, CondId, ExprId, Node, Program, TernaryOp};
+use umbrage::program::{Comparison, Cond, CondId, ExprId, Input, Node, Program, TernaryOp};
 use umbrage::table::HitPolicy;
 
 use super::Court;
@@ -270,7 +270,10 @@ impl Claims<'_, '_, '_> {
     /// Nothing depends on an input: other values of it change nothing.
     fn unused(&mut self, finding: &Diagnostic) {
         let Some(label) = finding.labels.first() else { return };
-        let Some((id, _)) = self.program.input_ids().find(|(_, input)| input.span == label.span) else { return };
+        // The calls of a fetch are declared at one place.
+        let is_meant =
+            |input: &Input| input.span == label.span && finding.message.contains(&format!("`{}`", input.name));
+        let Some((id, _)) = self.program.input_ids().find(|(_, input)| is_meant(input)) else { return };
         let mut narrow = Interpreter::<f32>::new(self.program);
         for pair in self.known.windows(2) {
             let mut changed = pair[0].point.clone();

@@ -72,8 +72,12 @@ impl Maker<'_, '_> {
         self.put(&mut list, "names", |maker| maker.names(3));
         let later =
             ["Record(", "Bool(", "Int(", "List(of: Vector", "List(of: List"].iter().any(|word| output.contains(word));
-        list.push(("language", (if later || self.modern { "2" } else { "1" }).to_owned()));
+        let claims = if self.choices.one_in(8) { self.claimed() } else { String::new() };
+        self.later |= later || !claims.is_empty() || self.inputs.iter().any(|input| input.name.contains('('));
         list.push(("output", output));
+        if !claims.is_empty() {
+            list.push(("claims", claims));
+        }
         let mut symmetries = Vec::new();
         if self.choices.either() {
             symmetries = self.symmetries();
@@ -105,6 +109,7 @@ impl Maker<'_, '_> {
         let (scope, ty) = (self.scope.clone(), self.output.clone());
         let default = self.quoted(&scope, &ty, 1);
         list.push(("default", default));
+        list.push(("language", self.language()));
         Draft { fields: self.choices.shuffled(list), cases, beside }
     }
 

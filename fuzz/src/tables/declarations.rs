@@ -4,6 +4,11 @@ use super::expression::{OR, Piece, Scope, Type, Visible};
 use super::inputs::Kind;
 use super::{Maker, map};
 
+/// An item that begins with a square bracket, closed by one.
+fn nested(item: String) -> String {
+    format!("{}]", item.strip_suffix(')').unwrap_or(&item))
+}
+
 impl Maker<'_, '_> {
     /// Inputs of one kind, by their places.
     fn alike(&self, kind: Kind) -> Vec<usize> {
@@ -194,10 +199,43 @@ impl Maker<'_, '_> {
                         _ => format!("({})", (0..width).map(|_| item(self)).collect::<Vec<_>>().join(", ")),
                     });
                     let items: Vec<String> = items.collect();
+                    // Two to four numbers are written in one way or the other.
+                    let items: Vec<String> = match width > 1 && self.choices.one_in(4) {
+                        true => {
+                            self.later = true;
+                            items.iter().map(|item| item.replacen('(', "[", 1)).map(nested).collect()
+                        }
+                        false => items,
+                    };
                     written.push((name.clone(), format!("[{}]", items.join(", "))));
-                    self.scope.lists.push((name, width));
+                    self.scope.lists.push((name, width, count));
                 }
             }
+        }
+        map(&written)
+    }
+
+    /// Claims about what is constant, and about numbers of some inputs; most of them hold.
+    pub(super) fn claimed(&mut self) -> String {
+        let mut written = Vec::new();
+        for _ in 0..self.choices.within(1, 3) {
+            let name = self.plain_name("c");
+            let number = self.inputs.iter().find(|input| !input.fetched && matches!(input.kind, Kind::Range(..)));
+            let number = number.map(|input| input.name.clone());
+            let constants = self.scope.constants();
+            let made = self.expression(&constants, &Type::Number, 1);
+            let [held, again] = [made.clone(), made].map(|piece| self.held(piece, super::expression::PRIMARY, false));
+            let claim = match (number, self.choices.below(3)) {
+                (Some(x), 0) => format!(
+                    "Equal(left: \"({x} + 1) * ({x} - {held})\", right: \"{x} * {x} + {x} - {again} * ({x} + 1)\", for: [\"{x}\"])"
+                ),
+                (Some(x), 1) => format!(
+                    "Within(left: \"sin({x} + {held})\", right: \"0\", by: \"1\", for: [\"{x}\"], doc: {})",
+                    self.doc()
+                ),
+                _ => format!("Equal(left: \"{held}\", right: \"{again}\", tolerance: 0)"),
+            };
+            written.push((name, claim));
         }
         map(&written)
     }

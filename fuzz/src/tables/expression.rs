@@ -91,7 +91,7 @@ pub(super) struct Scope {
     pub(super) visible: Vec<Visible>,
     pub(super) callable: Vec<Callable>,
     /// Lists of constants, with the number of components of an item.
-    pub(super) lists: Vec<(String, usize)>,
+    pub(super) lists: Vec<(String, usize, usize)>,
     /// Cases that can be referred to.
     pub(super) cases: Vec<u32>,
 }
@@ -284,7 +284,8 @@ fn reference(maker: &mut Maker<'_, '_>, scope: &Scope, ty: &Type, _: usize) -> O
     let mut text = format!("case({}", maker.choices.pick(&scope.cases.clone()));
     let count = maker.inputs.len();
     for place in 0..count {
-        if maker.choices.one_in(3) {
+        // A call of a fetch is not replaced.
+        if !maker.inputs[place].name.contains('(') && maker.choices.one_in(3) {
             let (name, kind) = (maker.inputs[place].name.clone(), maker.inputs[place].kind);
             text += &format!(", {name} = {}", maker.replacement(kind));
         }

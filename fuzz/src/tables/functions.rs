@@ -8,19 +8,25 @@ use crate::choices::Choices;
 pub(super) fn table(choices: &mut Choices<'_>) -> Written {
     let mut maker = Maker::new(choices);
     let mut beside = Vec::new();
-    let mut list: Vec<Field> = vec![("language", "1".to_owned()), ("name", "\"t\"".to_owned())];
+    let mut list: Vec<Field> = vec![("name", "\"t\"".to_owned())];
     if maker.choices.one_in(6) {
         let (imports, file) = maker.imports();
         list.push(("imports", imports));
         beside.push(file);
     }
     list.extend(maker.library());
+    list.push(("language", maker.language()));
     let list = maker.choices.shuffled(list);
     let text = layout::spread(maker.choices, &format!("Table({})", fields(&list)));
     Written { text, beside }
 }
 
 impl Maker<'_, '_> {
+    /// The version of the language that the table so far is written in.
+    pub(super) fn language(&mut self) -> String {
+        (if self.later || self.modern || self.choices.either() { "2" } else { "1" }).to_owned()
+    }
+
     /// What a table of functions has beside its name.
     fn library(&mut self) -> Vec<Field> {
         let mut list: Vec<Field> = Vec::new();
@@ -149,8 +155,9 @@ impl Maker<'_, '_> {
         // Names that differ from those here.
         other.names = 700;
         other.fuel = 20;
-        let mut list: Vec<Field> = vec![("language", "1".to_owned()), ("name", "\"other\"".to_owned())];
+        let mut list: Vec<Field> = vec![("name", "\"other\"".to_owned())];
         list.extend(other.library());
+        list.push(("language", other.language()));
         let text = format!("Table({})", fields(&list));
         let numbers = |callable: &Callable| callable.parameters.iter().all(|(_, ty)| *ty == Type::Number);
         let known = other.scope.callable.iter().filter(|callable| callable.by_name && numbers(callable));

@@ -17,10 +17,12 @@ pub(super) struct Set {
 
 /// An input.
 pub(super) struct Input {
+    /// Its name; of a fetch with arguments a call of it.
     pub(super) name: String,
     pub(super) kind: Kind,
     pub(super) fetched: bool,
-    pub(super) written: String,
+    /// The entry that declares it; the further calls of a fetch have none.
+    pub(super) written: Option<(String, String)>,
 }
 
 /// The values that an input takes.
@@ -114,11 +116,28 @@ impl Maker<'_, '_> {
                 Kind::Levels(_) => "Levels",
             };
             let written = format!("{word}({})", fields(&list));
-            self.scope.add(Visible { text: name.clone(), ty: kind.ty(), input: true });
-            self.inputs.push(Input { name, kind, fetched, written });
+            let (declared, names) = match fetched && self.choices.one_in(3) {
+                true => self.calls(&name),
+                false => (name.clone(), vec![name]),
+            };
+            let mut written = Some((declared, written));
+            for name in names {
+                self.scope.add(Visible { text: name.clone(), ty: kind.ty(), input: true });
+                self.inputs.push(Input { name, kind, fetched, written: written.take() });
+            }
         }
-        let entries: Vec<_> = self.inputs.iter().map(|input| (input.name.clone(), input.written.clone())).collect();
+        let entries: Vec<_> = self.inputs.iter().filter_map(|input| input.written.clone()).collect();
         map(&entries)
+    }
+
+    /// A fetch with arguments: its declaration, and some calls, all of them different.
+    fn calls(&mut self, name: &str) -> (String, Vec<String>) {
+        let all = match self.choices.either() {
+            true => ["(0)", "(-1)", "(0.3)", "(1)"].map(|arguments| format!("{name}{arguments}")),
+            false => ["(0,0)", "(-1,0.5)", "(0,1e6)", "(1,1)"].map(|arguments| format!("{name}{arguments}")),
+        };
+        let parameters = if all[0].contains(',') { "(dx, dy)" } else { "(at)" };
+        (format!("{name}{parameters}"), self.choices.some(&all))
     }
 
     /// The kind of an input with at most so many levels, what makes it that, its name, and how many levels it has.

@@ -46,6 +46,8 @@ pub(crate) struct Maker<'c, 'b> {
     modern: bool,
     /// True where nothing says of which set a level is.
     alone: bool,
+    /// True if something in the table came with version 2 of the language.
+    later: bool,
 }
 
 /// A table as text, with the tables that it imports.
@@ -78,6 +80,7 @@ impl<'c, 'b> Maker<'c, 'b> {
             one_number: true,
             modern: false,
             alone: false,
+            later: false,
         }
     }
 
@@ -162,6 +165,13 @@ mod tests {
         "unit:",
         "doc:",
         "fetched:",
+        "iterate(",
+        "lookup(",
+        "[[",
+        "claims:",
+        "Equal(",
+        "Within(",
+        "(dx, dy)\":",
         "names:",
         "symmetries:",
         "From(",

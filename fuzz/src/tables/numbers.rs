@@ -21,12 +21,26 @@ pub(super) const ALL: &[Construct] = &[
     (1, of_record),
     (1, series),
     (1, counted),
+    (1, indexed),
+    (1, interpolated),
+    (1, iterated),
     (1, polynomial),
     (1, between),
     (1, third),
 ];
 
 const NUMBER: Type = Type::Number;
+
+impl Maker<'_, '_> {
+    /// Returns whether every level of a set means a place in a list of so many items.
+    fn places(&self, set: usize, count: usize) -> bool {
+        let set = &self.sets[set];
+        match set.integers {
+            true => set.codes.iter().all(|code| code.parse::<usize>().is_ok_and(|place| place < count)),
+            false => set.levels.len() == count,
+        }
+    }
+}
 
 fn infix(maker: &mut Maker<'_, '_>, scope: &Scope, depth: usize, symbol: &str, strength: u8) -> Piece {
     let a = maker.operand(scope, &NUMBER, depth, strength);
@@ -178,7 +192,7 @@ fn series(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> O
     if scope.lists.is_empty() {
         return None;
     }
-    let (list, width) = maker.choices.pick(&scope.lists.clone()).clone();
+    let (list, width, _) = maker.choices.pick(&scope.lists.clone()).clone();
     let name = maker.plain_name("n");
     let mut inner = scope.clone();
     let ty = if width == 1 { Type::Number } else { Type::Vector(width) };
@@ -197,10 +211,62 @@ fn counted(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> 
     Some(Piece::primary(format!("sum({name} in {from} .. {to}, {item})")))
 }
 
+/// An item of a list of constants, by a number, a condition or a level.
+fn indexed(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> Option<Piece> {
+    if scope.lists.is_empty() {
+        return None;
+    }
+    let (list, width, count) = maker.choices.pick(&scope.lists.clone()).clone();
+    let levels: Vec<String> = (scope.visible.iter())
+        .filter(|visible| matches!(visible.ty, Type::Level(set) if maker.places(set, count)))
+        .map(|visible| visible.text.clone())
+        .collect();
+    let place = match maker.choices.below(3) {
+        0 if count > 1 => maker.operand(scope, &Type::Condition, depth.min(1), OR),
+        1 if !levels.is_empty() => maker.choices.pick(&levels).clone(),
+        _ => maker.choices.below(count).to_string(),
+    };
+    maker.later = true;
+    let second = maker.choices.below(width);
+    Some(match width {
+        1 => Piece::new(POSTFIX, format!("{list}[{place}]")),
+        _ if maker.choices.either() => Piece::new(POSTFIX, format!("{list}[{place}, {second}]")),
+        _ => Piece::new(POSTFIX, format!("{list}[{place}].{}", &"xyzw"[second..=second])),
+    })
+}
+
+fn interpolated(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> Option<Piece> {
+    if scope.lists.is_empty() {
+        return None;
+    }
+    let (list, width, _) = maker.choices.pick(&scope.lists.clone()).clone();
+    maker.later = true;
+    let at = maker.operand(scope, &NUMBER, depth.min(2), OR);
+    Some(match width {
+        1 => Piece::primary(format!("lookup({list}, {at})")),
+        _ if maker.choices.either() => {
+            let second = maker.operand(scope, &NUMBER, depth.min(1), OR);
+            Piece::primary(format!("lookup({list}, {at}, {second})"))
+        }
+        _ => Piece::new(POSTFIX, format!("lookup({list}, {at}).y")),
+    })
+}
+
+fn iterated(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> Option<Piece> {
+    let name = maker.plain_name("t");
+    let first = maker.operand(scope, &NUMBER, depth.min(1), OR);
+    let mut inner = scope.clone();
+    inner.add(Visible { text: name.clone(), ty: NUMBER, input: false });
+    let step = maker.operand(&inner, &NUMBER, depth.min(2), OR);
+    maker.later = true;
+    let count = maker.choices.below(4);
+    Some(Piece::primary(format!("iterate({count}, {name} = {first}, {step})")))
+}
+
 fn polynomial(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> Option<Piece> {
     let at = maker.operand(scope, &NUMBER, depth, OR);
     let lists: Vec<String> =
-        scope.lists.iter().filter(|(_, width)| *width == 1).map(|(name, _)| name.clone()).collect();
+        scope.lists.iter().filter(|(_, width, _)| *width == 1).map(|(name, ..)| name.clone()).collect();
     if !lists.is_empty() && maker.choices.either() {
         return Some(Piece::primary(format!("poly({at}, {})", maker.choices.pick(&lists))));
     }

@@ -3,6 +3,7 @@
 //! A new finding is a file here and its line in [`ALL`]; its code is registered in `diag::codes`.
 
 pub(crate) mod accuracy;
+pub(crate) mod claims;
 pub(crate) mod continuity;
 pub(crate) mod coverage;
 pub(crate) mod examples;
@@ -43,6 +44,7 @@ pub(super) const ALL: &[Analysis] = &[
     examples::ANALYSIS,
     accuracy::ANALYSIS,
     lengths::ANALYSIS,
+    claims::ANALYSIS,
     unused::ANALYSIS,
     #[cfg(feature = "precise")]
     singular::ANALYSIS,

@@ -27,11 +27,12 @@ fn inputs(program: &Program) -> Vec<Diagnostic> {
     // The functions of a table may share one list of parameters.
     let idle = if program.function.is_some() { InputSet::default() } else { program.idle() };
     let unused = program.input_ids().filter(|(id, _)| idle.contains(*id));
-    let describe = |input: &crate::program::Input| {
-        warning("input", &input.name, input.span, "no case and no default depends on it")
+    let describe = |name: &str, span: Span| {
+        warning("input", name, span, "no case and no default depends on it")
             .help("remove it, or check the spelling where it was meant to be used")
     };
-    unused.map(|(_, input)| describe(input)).collect()
+    let unused = unused.map(|(_, input)| describe(&input.name, input.span));
+    unused.chain(program.written.unused_fetches.iter().map(|name| describe(&name.value, name.span))).collect()
 }
 
 /// Names that lead nowhere. Those of a table of functions are for all of them, so there one cannot tell.

@@ -5,3 +5,4 @@ pub(crate) mod point;
 pub(crate) mod real;
 pub(crate) mod rounding;
 pub(crate) mod search;
+pub(crate) mod waves;

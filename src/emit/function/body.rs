@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use super::outline::{FAN_OUT, MAX_LEVELS, Outline};
 use super::scope::Scope;
+use crate::emit::inputs::input_type;
 use crate::emit::language::{Dialect, Prefix, Type, bare, value};
-use crate::emit::names::{Names, input_type};
+use crate::emit::names::Names;
 use crate::emit::text::Text;
 use crate::plan::{Plan, Step, StepId};
 use crate::program::{CondId, Domain, InputId, InputSet, LevelKind, Scalar};
@@ -175,7 +176,7 @@ impl<'a, 'p> Body<'a, 'p> {
                 }
                 Step::Fetch { input, next } => {
                     let (ident, ty) = self.names.fetched(self.plan.program, input);
-                    let call = self.dialect.fetch(self.prefix, &ident);
+                    let call = self.dialect.fetch(self.prefix, &self.plan.program.inputs[input.index()]);
                     let line = self.dialect.local(&ty.into(), &ident, &call, self.prefix);
                     self.text.line(line);
                     if self.outline.is_function(next) {
@@ -210,7 +211,8 @@ impl<'a, 'p> Body<'a, 'p> {
             return;
         }
         let open = self.test(condition);
-        self.block(open, |me| me.text.line(format!("{ident} = {};", me.dialect.fetch(me.prefix, &ident))));
+        let call = self.dialect.fetch(self.prefix, &self.plan.program.inputs[input.index()]);
+        self.block(open, |me| me.text.line(format!("{ident} = {call};")));
     }
 
     /// The first line of a conditional, after the locals that its condition needs.

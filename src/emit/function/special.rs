@@ -2,8 +2,8 @@
 
 use super::body::Body;
 use super::lookup::{key_words, piece, stride};
+use crate::emit::inputs::input_type;
 use crate::emit::language::{Type, bare, value};
-use crate::emit::names::input_type;
 use crate::plan::{StepId, renamed};
 use crate::program::{BinaryOp, InputId, InputSet, LevelKind, Scalar, TernaryOp};
 

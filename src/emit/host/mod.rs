@@ -7,10 +7,11 @@
 
 pub(crate) mod wgpu;
 
+use super::inputs::{fetches, input_type};
 use super::language::rust::Rust;
 use super::language::{Dialect, Prefix, Type, structures};
 use super::module;
-use super::names::{Names, fetches, input_type};
+use super::names::Names;
 use super::text::{Text, harmless};
 use crate::plan::KeyLayout;
 use crate::program::{Domain, Input, LevelKind, Program, Scalar};

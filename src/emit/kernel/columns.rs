@@ -8,11 +8,11 @@
 
 use std::fmt::Write;
 
+use crate::emit::inputs::{Fetch, fetches, input_type};
 use crate::emit::language::glsl::{Glsl, GlslVersion};
 use crate::emit::language::wgsl::Wgsl;
 use crate::emit::language::{Dialect, Prefix, words};
 use crate::emit::module;
-use crate::emit::names::{fetches, input_type};
 use crate::program::{Domain, Program, Scalar};
 use crate::prove::Proved;
 
@@ -87,15 +87,43 @@ pub fn wgsl_library(proved: &Proved<'_>, library: &str) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ unused: u32, }}", prefix.site());
     }
-    for (ident, scalar) in &fetches {
-        let (ty, zero) = (Wgsl::Plain.scalar(*scalar), Wgsl::Plain.zero(*scalar));
-        let _ =
-            writeln!(out, "fn {}_fetch_{ident}(site: {}) -> {ty} {{ return {zero}; }}", prefix.lower, prefix.site());
+    for fetch in &fetches {
+        let zero = Wgsl::Plain.zero(fetch.scalar);
+        let _ = writeln!(out, "{} {{ return {zero}; }}", wgsl_fetch(fetch, &prefix));
     }
     if proved.plan().reads_lookup() {
         let _ = writeln!(out, "fn {}_lookup(word: u32) -> u32 {{ return 0u; }}", prefix.lower);
     }
     out
+}
+
+/// The statements that end a function in place of the host's; `answer` gives those for an
+/// input, by its place among the fetched ones.
+pub(in crate::emit) fn fetch_body(fetch: &Fetch, dialect: &dyn Dialect, answer: impl Fn(usize) -> String) -> String {
+    let Some(((last, _), others)) = fetch.calls.split_last() else { return String::new() };
+    let mut out = String::new();
+    for (place, arguments) in others {
+        let same: Vec<String> = (fetch.parameters.iter().zip(arguments))
+            .map(|(name, value)| format!("{name} == {}", dialect.number(f64::from(*value))))
+            .collect();
+        let inner = answer(*place).replace('\n', "\n    ");
+        let _ = writeln!(out, "    if ({}) {{\n        {inner}\n    }}", same.join(" && "));
+    }
+    out + "    " + &answer(*last)
+}
+
+/// The first line of a function in place of the host's, in WGSL.
+pub(in crate::emit) fn wgsl_fetch(fetch: &Fetch, prefix: &Prefix) -> String {
+    let arguments = fetch.parameters(|name| format!("{name}: f32"));
+    let (ident, ty) = (&fetch.ident, Wgsl::Plain.scalar(fetch.scalar));
+    format!("fn {}_fetch_{ident}(site: {}{arguments}) -> {ty}", prefix.lower, prefix.site())
+}
+
+/// The same in GLSL.
+fn glsl_fetch(fetch: &Fetch, prefix: &Prefix, glsl: &Glsl) -> String {
+    let arguments = fetch.parameters(|name| format!("float {name}"));
+    let (ident, ty) = (&fetch.ident, glsl.scalar(fetch.scalar));
+    format!("{ty} {}_fetch_{ident}({} site{arguments})", prefix.lower, prefix.site())
 }
 
 /// Puts a GLSL library between a stub of the host's functions and an empty `main`.
@@ -114,9 +142,9 @@ pub fn glsl_library(proved: &Proved<'_>, library: &str, version: GlslVersion) ->
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ uint unused; }};", prefix.site());
     }
-    for (ident, scalar) in &fetches {
-        let (ty, zero) = (glsl.scalar(*scalar), glsl.zero(*scalar));
-        let _ = writeln!(out, "{ty} {}_fetch_{ident}({} site) {{ return {zero}; }}", prefix.lower, prefix.site());
+    for fetch in &fetches {
+        let zero = glsl.zero(fetch.scalar);
+        let _ = writeln!(out, "{} {{ return {zero}; }}", glsl_fetch(fetch, &prefix, &glsl));
     }
     if proved.plan().reads_lookup() {
         let _ = writeln!(out, "uint {}_lookup(uint word) {{ return 0u; }}", prefix.lower);
@@ -143,16 +171,12 @@ pub fn wgsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "\nstruct {} {{ row: u32, }}", prefix.site());
     }
-    for (index, (ident, scalar)) in fetches.iter().enumerate() {
-        let value = Wgsl::Plain.scalar_of_word(*scalar, &fetched_word(&layout, index));
-        let _ = writeln!(
-            out,
-            "fn {}_fetch_{ident}(site: {}) -> {} {{\n    {}\n    return {value};\n}}",
-            prefix.lower,
-            prefix.site(),
-            Wgsl::Plain.scalar(*scalar),
-            count_fetch(&layout, index),
-        );
+    for fetch in &fetches {
+        let body = fetch_body(fetch, &Wgsl::Plain, |place| {
+            let value = Wgsl::Plain.scalar_of_word(fetch.scalar, &fetched_word(&layout, place));
+            format!("{}\n    return {value};", count_fetch(&layout, place))
+        });
+        let _ = writeln!(out, "{} {{\n{body}\n}}", wgsl_fetch(fetch, &prefix));
     }
     let _ = writeln!(
         out,
@@ -199,16 +223,12 @@ pub fn glsl_columns(proved: &Proved<'_>, entry: Entry) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ uint row; }};", prefix.site());
     }
-    for (index, (ident, scalar)) in fetches.iter().enumerate() {
-        let value = glsl.scalar_of_word(*scalar, &fetched_word(&layout, index));
-        let _ = writeln!(
-            out,
-            "{} {}_fetch_{ident}({} site) {{\n    {}\n    return {value};\n}}",
-            glsl.scalar(*scalar),
-            prefix.lower,
-            prefix.site(),
-            count_fetch(&layout, index),
-        );
+    for fetch in &fetches {
+        let body = fetch_body(fetch, &glsl, |place| {
+            let value = glsl.scalar_of_word(fetch.scalar, &fetched_word(&layout, place));
+            format!("{}\n    return {value};", count_fetch(&layout, place))
+        });
+        let _ = writeln!(out, "{} {{\n{body}\n}}", glsl_fetch(fetch, &prefix, &glsl));
     }
     let before = name_buffers(program, &prefix, &out) + &module::write(proved, &glsl);
     let mut out = String::from(

@@ -15,11 +15,11 @@
 
 use std::fmt::Write;
 
-use super::columns::{Entry, Layout, WORKGROUP, fetched_word, name_buffers};
+use super::columns::{Entry, Layout, WORKGROUP, fetch_body, fetched_word, name_buffers, wgsl_fetch};
+use crate::emit::inputs::fetches;
 use crate::emit::language::wgsl::Wgsl;
 use crate::emit::language::{Dialect, Prefix, words};
 use crate::emit::module;
-use crate::emit::names::fetches;
 use crate::program::{Domain, Input, Program};
 use crate::prove::Proved;
 
@@ -37,10 +37,11 @@ pub fn wgsl_timed(proved: &Proved<'_>, rows: u32) -> String {
     if !fetches.is_empty() {
         let _ = writeln!(out, "struct {} {{ row: u32, }}", prefix.site());
     }
-    for (index, (ident, scalar)) in fetches.iter().enumerate() {
-        let value = Wgsl::Plain.scalar_of_word(*scalar, &fetched_word(&layout, index));
-        let (site, ty) = (prefix.site(), Wgsl::Plain.scalar(*scalar));
-        let _ = writeln!(out, "fn {}_fetch_{ident}(site: {site}) -> {ty} {{ return {value}; }}", prefix.lower);
+    for fetch in &fetches {
+        let body = fetch_body(fetch, &Wgsl::Plain, |place| {
+            format!("return {};", Wgsl::Plain.scalar_of_word(fetch.scalar, &fetched_word(&layout, place)))
+        });
+        let _ = writeln!(out, "{} {{\n{body}\n}}", wgsl_fetch(fetch, &prefix));
     }
     let numbers = (1..layout.plain).map(|index| format!("number_{index}"));
     let mut arguments: Vec<String> = ["key".to_owned()].into_iter().chain(numbers).collect();

@@ -2,6 +2,7 @@
 //! and `switch`, which all of them have, and no `fma`, which ES 300 lacks.
 
 use super::{Dialect, Prefix, Type};
+use crate::emit::inputs::Fetch;
 use crate::program::Scalar;
 use crate::program::operators::{Spelling, Spellings};
 
@@ -50,7 +51,7 @@ impl Dialect for Glsl {
         format!("{of}[{length}]")
     }
 
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {
+    fn prologue(&self, prefix: &Prefix, fetches: &[Fetch]) -> String {
         let mut out = format!("// Include it after `{}`", self.version.version_line());
         if fetches.is_empty() {
             out += ".\n";
@@ -60,9 +61,10 @@ impl Dialect for Glsl {
                 "//   struct {} {{ ... }};  what a fetch needs to know, a texel for instance\n",
                 prefix.site()
             );
-            for (ident, scalar) in fetches {
-                let ty = self.scalar(*scalar);
-                out += &format!("//   {ty} {}_fetch_{ident}({} site)\n", prefix.lower, prefix.site());
+            for fetch in fetches {
+                let (ident, ty) = (&fetch.ident, self.scalar(fetch.scalar));
+                let arguments = fetch.parameters(|name| format!("float {name}"));
+                out += &format!("//   {ty} {}_fetch_{ident}({} site{arguments})\n", prefix.lower, prefix.site());
             }
         }
         if self.version == GlslVersion::Es300 {

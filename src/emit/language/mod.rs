@@ -5,8 +5,9 @@ pub(crate) mod glsl;
 pub(crate) mod rust;
 pub(crate) mod wgsl;
 
+use super::inputs::{Fetch, fetch_ident};
 use crate::program::operators::{Notation, Spelling, Spellings};
-use crate::program::{BinaryOp, DataType, Scalar, TernaryOp, UnaryOp};
+use crate::program::{BinaryOp, DataType, Input, Scalar, TernaryOp, UnaryOp};
 
 pub(super) use composite::{structures, value, words};
 
@@ -101,7 +102,7 @@ pub(super) trait Dialect {
         prefix.site()
     }
     /// The first lines of a file, after the comment.
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String;
+    fn prologue(&self, prefix: &Prefix, fetches: &[Fetch]) -> String;
     /// Functions that the language lacks, for a table that needs remainders.
     fn remainder(&self, _: &Prefix) -> String {
         String::new()
@@ -235,8 +236,14 @@ pub(super) trait Dialect {
         }
     }
     /// Calls the host for a fetched input.
-    fn fetch(&self, prefix: &Prefix, ident: &str) -> String {
-        format!("{}_fetch_{ident}(site)", prefix.lower)
+    fn fetch(&self, prefix: &Prefix, input: &Input) -> String {
+        let arguments: String = self.arguments(input).iter().map(|argument| format!(", {argument}")).collect();
+        format!("{}_fetch_{}(site{arguments})", prefix.lower, fetch_ident(input))
+    }
+    /// The arguments of a fetch, besides the site.
+    fn arguments(&self, input: &Input) -> Vec<String> {
+        let arguments = input.call.iter().flat_map(|call| &call.arguments);
+        arguments.map(|argument| bare(&self.number(f64::from(*argument))).to_owned()).collect()
     }
     /// The argument that passes the site on.
     fn site_argument(&self) -> &'static str {

@@ -3,8 +3,9 @@
 //! is added by [`host`](crate::emit::host).
 
 use super::{Dialect, Prefix, Type};
-use crate::program::Scalar;
+use crate::emit::inputs::{Fetch, fetch_ident};
 use crate::program::operators::{Spelling, Spellings};
+use crate::program::{Input, Scalar};
 
 /// Rust.
 pub(in crate::emit) struct Rust;
@@ -36,7 +37,7 @@ impl Dialect for Rust {
         format!("&mut impl {}", prefix.site())
     }
 
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {
+    fn prologue(&self, prefix: &Prefix, fetches: &[Fetch]) -> String {
         let mut out = format!(
             "#[allow(non_camel_case_types, non_snake_case, clippy::all, dead_code, missing_docs, unreachable_pub)]\n#[allow(unused_parens, unused_variables)]\n#[rustfmt::skip]\npub mod {} {{\n",
             prefix.lower
@@ -44,8 +45,9 @@ impl Dialect for Rust {
         if !fetches.is_empty() {
             out += "/// Produces fetched inputs on demand; levels as their index.\n";
             out += &format!("pub trait {} {{\n", prefix.site());
-            for (ident, scalar) in fetches {
-                out += &format!("    fn {ident}(&mut self) -> {};\n", self.scalar(*scalar));
+            for fetch in fetches {
+                let arguments = fetch.parameters(|name| format!("{name}: f32"));
+                out += &format!("    fn {}(&mut self{arguments}) -> {};\n", fetch.ident, self.scalar(fetch.scalar));
             }
             out += "}\n";
         }
@@ -111,8 +113,8 @@ impl Dialect for Rust {
         format!("u32::from({condition})")
     }
 
-    fn fetch(&self, _: &Prefix, ident: &str) -> String {
-        format!("site.{ident}()")
+    fn fetch(&self, _: &Prefix, input: &Input) -> String {
+        format!("site.{}({})", fetch_ident(input), self.arguments(input).join(", "))
     }
 
     fn float_from_bits(&self, word: &str) -> String {

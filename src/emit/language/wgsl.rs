@@ -1,6 +1,7 @@
 //! WGSL.
 
 use super::{Dialect, Prefix, Type};
+use crate::emit::inputs::Fetch;
 use crate::program::Scalar;
 use crate::program::operators::{Spelling, Spellings};
 
@@ -31,7 +32,7 @@ impl Dialect for Wgsl {
         format!("array<{of}, {length}>")
     }
 
-    fn prologue(&self, prefix: &Prefix, fetches: &[(String, Scalar)]) -> String {
+    fn prologue(&self, prefix: &Prefix, fetches: &[Fetch]) -> String {
         if fetches.is_empty() {
             return String::new();
         }
@@ -40,9 +41,10 @@ impl Dialect for Wgsl {
             Wgsl::Module => "// To be supplied by the host, in the module that is imported above:\n",
         });
         out += &format!("//   struct {} {{ ... }}  what a fetch needs to know, a texel for instance\n", prefix.site());
-        for (ident, scalar) in fetches {
-            let ty = self.scalar(*scalar);
-            out += &format!("//   fn {}_fetch_{ident}(site: {}) -> {ty}\n", prefix.lower, prefix.site());
+        for fetch in fetches {
+            let (ident, ty) = (&fetch.ident, self.scalar(fetch.scalar));
+            let arguments = fetch.parameters(|name| format!("{name}: f32"));
+            out += &format!("//   fn {}_fetch_{ident}(site: {}{arguments}) -> {ty}\n", prefix.lower, prefix.site());
         }
         out
     }

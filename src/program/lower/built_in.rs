@@ -50,6 +50,8 @@ pub(super) struct BuiltIn {
     pub(super) parameters: &'static [(&'static str, Kind)],
     /// Takes any number of arguments of the kind of its one parameter.
     repeats: bool,
+    /// The version of the language that it came with.
+    since: u32,
     /// Its meaning in a few words.
     doc: &'static str,
     meaning: Meaning,
@@ -61,6 +63,7 @@ static ALL: &[BuiltIn] = &[
         name: "select",
         parameters: &[("f", Kind::Alternative), ("t", Kind::Alternative), ("c", Kind::Condition)],
         repeats: false,
+        since: 1,
         doc: "`if c { t } else { f }`: note the order",
         meaning: Meaning::Written(select),
     },
@@ -68,6 +71,7 @@ static ALL: &[BuiltIn] = &[
         name: "f32",
         parameters: &[("a", Kind::Value)],
         repeats: false,
+        since: 1,
         doc: "of a level its code; of a condition 1 or 0; of a number itself",
         meaning: Meaning::Written(|lowering, call| lowering.number_of(&call.arguments[0], call.env)),
     },
@@ -95,13 +99,23 @@ static ALL: &[BuiltIn] = &[
         name: "poly",
         parameters: &[("a", Kind::Value), ("[c0, c1, c2]", Kind::Constants)],
         repeats: false,
+        since: 1,
         doc: "c0 + a (c1 + a c2), in this order; the list may be a constant's name",
         meaning: Meaning::Written(|lowering, call| lowering.polynomial(call)),
+    },
+    BuiltIn {
+        name: "lookup",
+        parameters: &[("list", Kind::Form), ("x", Kind::Form)],
+        repeats: false,
+        since: 2,
+        doc: "the list at x, from 0 at its first item to 1 at its last, interpolated and clamped; of two dimensions `lookup(list, x, y)`",
+        meaning: Meaning::Written(|lowering, call| lowering.lookup(call)),
     },
     BuiltIn {
         name: "sum",
         parameters: &[("n in list", Kind::Form), ("F", Kind::Value)],
         repeats: false,
+        since: 1,
         doc: "the sum of F over a list of constants or, as `sum(i in 1 .. 8, F)`, over whole numbers",
         meaning: Meaning::Written(|_, call| {
             let error = Diagnostic::error(codes::CALL, "`sum` needs a name that runs over something");
@@ -110,23 +124,48 @@ static ALL: &[BuiltIn] = &[
                 .help("`sum(n in nodes, n.y * x)` or `sum(i in 0 .. 3, i * x)`"))
         }),
     },
+    BuiltIn {
+        name: "iterate",
+        parameters: &[("n", Kind::Form), ("x = a", Kind::Form), ("F", Kind::Form)],
+        repeats: false,
+        since: 2,
+        doc: "F done n times, where x is a at first, then what F gave; n is a constant",
+        meaning: Meaning::Written(|_, call| {
+            let error = Diagnostic::error(codes::CALL, "`iterate` needs a value that changes with each step");
+            Err(error.at(call.span, "nothing changes here").help("`iterate(3, x = 1, 0.5 * (x + a / x))`"))
+        }),
+    },
 ];
 
 impl BuiltIn {
     /// A vector made of any number of components.
     const fn vector(name: &'static str, doc: &'static str, expand: Expand) -> Self {
-        Self { name, parameters: &[("...", Kind::Numbers)], repeats: true, doc, meaning: Meaning::Expansion(expand) }
+        Self {
+            name,
+            parameters: &[("...", Kind::Numbers)],
+            repeats: true,
+            since: 1,
+            doc,
+            meaning: Meaning::Expansion(expand),
+        }
     }
 
     /// A function of one number or vector.
     const fn of_one(name: &'static str, doc: &'static str, expand: Expand) -> Self {
-        Self { name, parameters: &[("a", Kind::Numbers)], repeats: false, doc, meaning: Meaning::Expansion(expand) }
+        Self {
+            name,
+            parameters: &[("a", Kind::Numbers)],
+            repeats: false,
+            since: 1,
+            doc,
+            meaning: Meaning::Expansion(expand),
+        }
     }
 
     /// A function of two numbers, or of two vectors of one size.
     const fn of_two(name: &'static str, doc: &'static str, expand: Expand) -> Self {
         let parameters = &[("a", Kind::Numbers), ("b", Kind::Numbers)];
-        Self { name, parameters, repeats: false, doc, meaning: Meaning::Expansion(expand) }
+        Self { name, parameters, repeats: false, since: 1, doc, meaning: Meaning::Expansion(expand) }
     }
 }
 
@@ -167,6 +206,11 @@ pub(super) fn named(name: &str) -> Option<&'static BuiltIn> {
     ALL.iter().find(|function| function.name == name)
 }
 
+/// The version of the language that a function came with; operators were always there.
+pub(super) fn since(name: &str) -> u32 {
+    named(name).map_or(1, |function| function.since)
+}
+
 /// Refuses a call with another number of arguments.
 pub(super) fn check_arity(name: &str, takes: usize, call: Call<'_>) -> Result<()> {
     if call.arguments.len() == takes {
@@ -184,6 +228,7 @@ pub(super) fn check_arity(name: &str, takes: usize, call: Call<'_>) -> Result<()
 impl Lowering<'_> {
     /// A call of a function of the language.
     pub(super) fn built_in(&mut self, function: &BuiltIn, call: Call<'_>) -> Result<Term> {
+        self.scopes[call.env.scope].since(function.since, call.span, &format!("`{}`", function.name))?;
         let form = function.parameters.iter().any(|(_, kind)| *kind == Kind::Form);
         if !function.repeats && !form {
             check_arity(function.name, function.parameters.len(), call)?;

@@ -14,7 +14,11 @@ impl Lowering<'_> {
     /// A call of a function: of the language, of the table or of one that it imports, or of an operator.
     pub(super) fn call(&mut self, function: &Spanned<String>, call: Call<'_>) -> Result<Term> {
         let name = function.value.as_str();
-        if let Some(built_in) = built_in::named(name) {
+        // A table may have a function of that name if it was not the language's by then.
+        let is_later = built_in::since(name) > self.scopes[call.env.scope].language.value;
+        if let Some(built_in) = built_in::named(name)
+            && !(is_later && self.callee(name, call.env.scope).is_some())
+        {
             return self.built_in(built_in, call);
         }
         if let Some(callee) = self.callee(name, call.env.scope) {
@@ -22,6 +26,9 @@ impl Lowering<'_> {
         }
         if let Some(table) = self.called_table(name, call.env.scope) {
             return self.table_in_order(table, call.arguments, call.span, call.env);
+        }
+        if let Some(fetch) = self.fetch_named(name, call.env) {
+            return self.fetch(fetch, call.arguments, call.span, call.env);
         }
         let Some(op) = Operator::named(name) else { return Err(self.unknown_function(function, call.env)) };
         let operand = |me: &mut Self, index: usize| me.term(&call.arguments[index], call.env, Expected::Anything);
@@ -92,7 +99,8 @@ impl Lowering<'_> {
     }
 
     pub(super) fn unknown_function(&self, function: &Spanned<String>, env: &Env) -> Diagnostic {
-        let own = self.callable(env.scope);
+        let mut own = self.callable(env.scope);
+        own.extend(self.fetches_in_sight(env).map(str::to_owned));
         let known = || own.iter().map(String::as_str).chain(built_in::signatures().map(|function| function.name));
         let error = Diagnostic::error(codes::CALL, format!("there is no function `{}`", function.value))
             .at(function.span, "unknown function");

@@ -39,6 +39,10 @@ impl<'t> Lowering<'t> {
         taken.clear();
         for input in inputs {
             self.take_name(&input.name, "an input", &mut taken, errors);
+            if !input.parameters.is_empty() {
+                keep(self.declare_fetch(input), errors);
+                continue;
+            }
             if let Some(checked) = keep(self.input(input), errors) {
                 let id = InputId::new(self.inputs.len());
                 if let Domain::Continuous { lo, hi, .. } = checked.domain {
@@ -182,7 +186,14 @@ impl<'t> Lowering<'t> {
         Ok(Some(set))
     }
 
-    pub(super) fn input(&mut self, input: &'t table::Input) -> Result<Input> {
+    fn input(&mut self, input: &'t table::Input) -> Result<Input> {
+        let (checked, set) = self.checked_input(input)?;
+        self.input_sets.push(set);
+        Ok(checked)
+    }
+
+    /// An input, with its level set, that has no number yet.
+    pub(super) fn checked_input(&mut self, input: &'t table::Input) -> Result<(Input, Option<SetId>)> {
         let set = self.set_of_input(input)?;
         let domain = match (set, &input.domain.value) {
             (Some(set), _) => Domain::Discrete(self.sets[set.0].clone()),
@@ -212,14 +223,14 @@ impl<'t> Lowering<'t> {
             domain,
             doc: input.doc.clone(),
             fetched: input.fetched.as_ref().map(|cost| cost.value),
+            call: None,
             default: None,
             span: input.name.span,
         };
         if let Some(default) = &input.default {
             checked.default = Some(examples::literal(&checked, default)?);
         }
-        self.input_sets.push(set);
-        Ok(checked)
+        Ok((checked, set))
     }
 
     pub(super) fn too_many_states(&self, product: f64) -> Diagnostic {

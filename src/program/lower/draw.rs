@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use super::{Lowering, Result, SetId};
+use super::{Lowering, Result, SetId, keep};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::draw::Draw;
 use crate::program::pool::LevelSet;
@@ -11,7 +11,11 @@ use crate::table::draw as written;
 
 impl Lowering<'_> {
     /// The hints, in the order of the inputs.
-    pub(super) fn draw(&self, errors: &mut Vec<Diagnostic>) -> Vec<(InputId, Draw)> {
+    pub(super) fn draw(&mut self, errors: &mut Vec<Diagnostic>) -> Vec<(InputId, Draw)> {
+        let table = self.table;
+        for (name, _) in &table.draw {
+            keep(self.input_written(name), errors);
+        }
         let mut seen = HashSet::new();
         let mut hints = Vec::new();
         for (name, hint) in &self.table.draw {
@@ -80,7 +84,7 @@ impl Lowering<'_> {
     }
 
     fn drawn(&self, name: &Spanned<String>) -> Result<InputId> {
-        self.input_named(&name.value).ok_or_else(|| self.unknown_input(name, "only inputs are drawn"))
+        self.input_or_call(&name.value).ok_or_else(|| self.unknown_input(name, "only inputs are drawn"))
     }
 
     /// An input that is itself drawn in a certain way.

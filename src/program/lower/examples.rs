@@ -12,7 +12,7 @@ impl Lowering<'_> {
     pub(super) fn example(&mut self, row: usize, example: &table::Example) -> Result<Example> {
         let mut inputs: Vec<Option<Value>> = self.inputs.iter().map(|i| i.default).collect();
         for (name, value) in &example.inputs {
-            let Some(input) = self.input_named(&name.value) else {
+            let Some(input) = self.input_or_call(&name.value) else {
                 return Err(self.unknown_input(name, "unknown input"));
             };
             inputs[input.index()] = Some(literal(&self.inputs[input.index()], value)?);

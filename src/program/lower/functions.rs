@@ -343,6 +343,45 @@ impl<'t> Lowering<'t> {
         total.ok_or_else(|| Diagnostic::error(codes::TOO_MANY_TERMS, "a sum of no terms").at(span, "this sum"))
     }
 
+    /// `iterate(n, x = start, step)`: written out, as often as it says.
+    pub(super) fn iterate(
+        &mut self,
+        count: &Expr,
+        variable: &Spanned<String>,
+        [start, step]: [&Expr; 2],
+        span: Span,
+        env: &Env,
+    ) -> Result<Term> {
+        self.scopes[env.scope].since(2, span, "`iterate`")?;
+        self.check_local(variable, env)?;
+        let number = self.numeric(count, env)?;
+        let steps = match self.pool.constant(number) {
+            Some(steps) if steps.fract() == 0.0 && (0.0..=MAX_TERMS as f64).contains(&steps) => steps as usize,
+            Some(steps) => {
+                let error = Diagnostic::error(codes::TOO_MANY_TERMS, format!("{steps} steps of an iteration"));
+                return Err(error.at(count.span, format!("a whole number, 0 to {MAX_TERMS}")));
+            }
+            None => {
+                return Err(Diagnostic::error(codes::NOT_CONSTANT, "an iteration has a constant number of steps")
+                    .at(count.span, "depends on something")
+                    .help(
+                        "how many steps are enough for all inputs is known beforehand, or no shader could be proved",
+                    ));
+            }
+        };
+        self.follow(steps, span)?;
+        let mut value = self.term(start, env, Expected::Anything)?;
+        for _ in 0..steps {
+            let next = self.term(step, &env.with_local(variable, value.clone()), Expected::Anything)?;
+            if self.describe(&next) != self.describe(&value) {
+                let message = format!("`{}` begins as {}", variable.value, self.describe(&value));
+                return Err(type_error(step.span, &self.describe(&next), &message).at(start.span, "begins here"));
+            }
+            value = next;
+        }
+        Ok(value)
+    }
+
     /// A constant whole number.
     fn whole(&mut self, expr: &Expr, env: &Env) -> Result<f64> {
         let number = self.numeric(expr, env)?;
@@ -441,7 +480,7 @@ impl<'t> Lowering<'t> {
                 let value = self.known_constant(expr, index, env.scope)?;
                 Ok(Some(Term::Number(self.pool.number(value))))
             }
-            ConstantValue::List(_) => Ok(None),
+            ConstantValue::List(_) | ConstantValue::Levels { .. } | ConstantValue::File(..) => Ok(None),
         }
     }
 
@@ -449,7 +488,10 @@ impl<'t> Lowering<'t> {
     pub(super) fn check_constant(&mut self, index: usize, name: &Spanned<String>) -> Result<()> {
         match &self.scopes[0].constants[index].value {
             ConstantValue::Number(expr) => self.known_constant(expr, index, 0).map(drop),
-            ConstantValue::List(_) => self.constant_list(name, &Env::default()).map(drop),
+            ConstantValue::List(_) | ConstantValue::File(..) => {
+                self.rows_of_constant(index, name, name.span, 0).map(drop)
+            }
+            ConstantValue::Levels { of, items } => self.levels_of_constant(of, items).map(drop),
         }
     }
 
@@ -464,7 +506,7 @@ impl<'t> Lowering<'t> {
     }
 
     /// The value of a constant expression, which may use the constants declared before it.
-    fn constant_number(&mut self, expr: &Expr, index: usize, scope: usize) -> Result<f64> {
+    pub(super) fn constant_number(&mut self, expr: &Expr, index: usize, scope: usize) -> Result<f64> {
         let parameters = Some(Rc::default());
         let env = Env { parameters, scope, constants: Some(index), ..Env::default() };
         let calling = std::mem::take(&mut self.calling);
@@ -481,11 +523,13 @@ impl<'t> Lowering<'t> {
         let (scope, name) = self.in_import(&list.value, env.scope).unwrap_or((env.scope, &list.value));
         let constants = &self.scopes[scope].constants;
         let lists = || {
-            let lists = constants.iter().filter(|c| matches!(c.value, ConstantValue::List(_)));
+            let lists =
+                constants.iter().filter(|c| matches!(c.value, ConstantValue::List(_) | ConstantValue::File(..)));
             lists.map(|c| c.name.value.as_str())
         };
         let found = constants.iter().position(|c| c.name.value == name);
-        let Some((index, ConstantValue::List(items))) = found.map(|index| (index, &constants[index].value)) else {
+        let of_numbers = |index: &usize| lists().any(|name| name == constants[*index].name.value);
+        let Some(index) = found.filter(of_numbers) else {
             let message = format!("`{}` is not a list of constants", list.value);
             let error = Diagnostic::error(codes::UNKNOWN_NAME, message).at(list.span, "expected a list of `constants`");
             return Err(match nearest(name, lists()) {
@@ -496,25 +540,26 @@ impl<'t> Lowering<'t> {
                 None => error.help(format!("the lists are: {}", lists().collect::<Vec<_>>().join(", "))),
             });
         };
-        if items.len() > MAX_TERMS {
-            let message = format!("`{}` has {} items", list.value, items.len());
-            return Err(Diagnostic::error(codes::TOO_MANY_TERMS, message)
-                .at(list.span, format!("used here, at most {MAX_TERMS}")));
-        }
-        let width = items.first().map_or(0, Vec::len);
-        if let Some(odd) = items.iter().find(|item| item.len() != width) {
-            let message = format!("the items of `{}` differ in length", list.value);
-            let at = odd.first().map_or(list.span, |number| number.span);
-            return Err(Diagnostic::error(codes::NOT_CONSTANT, message).at(at, format!("not {width} numbers")));
-        }
-        if let Some(known) = self.memo.lists.get(&(scope, index)) {
-            return Ok(known.clone());
-        }
-        let numbers = |me: &mut Self, item: &Vec<Expr>| {
-            item.iter().map(|number| me.constant_number(number, index, scope)).collect()
+        let too_many = |count: usize| {
+            let message = format!("`{}` has {count} items", list.value);
+            Err(Diagnostic::error(codes::TOO_MANY_TERMS, message)
+                .at(list.span, format!("used here, at most {MAX_TERMS}")))
         };
-        let items: Items = Rc::new(items.iter().map(|item| numbers(self, item)).collect::<Result<_>>()?);
-        self.memo.lists.insert((scope, index), items.clone());
-        Ok(items)
+        if let ConstantValue::List(items) = &constants[index].value
+            && items.len() > MAX_TERMS
+        {
+            return too_many(items.len());
+        }
+        let rows = self.rows_of_constant(index, list, list.span, scope)?;
+        let width = rows.first().map_or(0, Vec::len);
+        if rows.len() > MAX_TERMS {
+            return too_many(rows.len());
+        }
+        if width > 4 {
+            let message = format!("the items of `{}` have {width} numbers each", list.value);
+            return Err(Diagnostic::error(codes::TYPE, message)
+                .at(list.span, "an item here is a number, or a vector of two to four"));
+        }
+        Ok(rows)
     }
 }

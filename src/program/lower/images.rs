@@ -18,7 +18,7 @@ impl<'t> Lowering<'t> {
     pub(super) fn images(&mut self, map: &'t [(Spanned<String>, Image)], env: &Env) -> Result<HashMap<InputId, Term>> {
         let mut images = HashMap::new();
         for (name, image) in map {
-            let Some(input) = self.input_named(&name.value) else {
+            let Some(input) = self.input_written(name)? else {
                 return Err(self.unknown_input(name, "only inputs are mapped"));
             };
             let term = match image {
@@ -85,18 +85,9 @@ impl<'t> Lowering<'t> {
         let (name, span) = (&continuity.name.value, continuity.name.span);
         names::check_inner(name, "a border or switch", span)?;
         let (mut levels, mut numbers) = (Vec::new(), Vec::new());
-        let inputs = |names: &[Spanned<String>], allowed: &dyn Fn(InputId) -> bool, help: &str| {
-            let find = |name: &Spanned<String>| match self.input_named(&name.value) {
-                Some(input) if allowed(input) => Ok(input),
-                Some(_) => Err(Diagnostic::error(codes::SYMMETRY, format!("`{}` cannot stand here", name.value))
-                    .at(name.span, help)),
-                None => Err(self.unknown_input(name, "only inputs are listed here")),
-            };
-            names.iter().map(find).collect::<Result<Vec<_>>>()
-        };
         let kind = match &continuity.kind {
             ContinuityKind::Border { when, map, free } => {
-                let free = inputs(free, &|_| true, "")?;
+                let free = self.listed(free)?;
                 let condition = self.condition(when, &Env::default())?;
                 (levels, numbers) = self.mapped_inputs(map, span)?;
                 let mapped = levels.iter().map(|(input, _)| *input).chain(numbers.iter().map(|(input, _)| *input));
@@ -109,12 +100,29 @@ impl<'t> Lowering<'t> {
                 program::ContinuityKind::Border(condition, free)
             }
             ContinuityKind::Switch(of) => {
-                let continuous = |input: InputId| self.input_sets[input.index()].is_none();
-                program::ContinuityKind::Switch(inputs(of, &continuous, "only a range can be compared")?)
+                let inputs = self.listed(of)?;
+                for (input, name) in inputs.iter().zip(of) {
+                    if self.input_sets[input.index()].is_some() {
+                        let message = format!("`{}` cannot stand here", name.value);
+                        return Err(
+                            Diagnostic::error(codes::SYMMETRY, message).at(name.span, "only a range can be compared")
+                        );
+                    }
+                }
+                program::ContinuityKind::Switch(inputs)
             }
         };
         let (name, doc) = (name.clone(), continuity.doc.clone());
         Ok(Continuity { map: Symmetry { name, doc, levels, numbers, result: None, span }, kind })
+    }
+
+    /// The inputs of a list.
+    fn listed(&mut self, names: &[Spanned<String>]) -> Result<Vec<InputId>> {
+        let find = |name: &Spanned<String>| match self.input_written(name)? {
+            Some(input) => Ok(input),
+            None => Err(self.unknown_input(name, "only inputs are listed here")),
+        };
+        names.iter().map(find).collect()
     }
 
     /// The images of inputs, ready for a program.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::tables::Programs;
 use super::terms::Expected;
-use super::{Lowering, Result, built_in, functions::Callee, keep, once, written};
+use super::{Lowering, Result, built_in, claims, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
 use crate::program::{Accuracy, Assumption, Function, Limit, Line, Program, Row};
@@ -54,6 +54,10 @@ fn own_functions(table: &Table, imported: &Imported) -> std::result::Result<Vec<
             break;
         }
     }
+    let claims = claims::claims(table, imported.programs.clone(), &mut errors);
+    if let Some(first) = programs.first_mut() {
+        first.claims = claims;
+    }
     once(&mut errors);
     if errors.is_empty() { Ok(programs) } else { Err(fail(errors)) }
 }
@@ -91,6 +95,11 @@ pub(in crate::program) fn declarations(table: &Table) -> std::result::Result<(),
     let mut errors = Vec::new();
     let mut lowering = Lowering::new(table, imported.programs);
     lowering.declare(&[], &mut errors);
+    if let Some(claim) = table.claims.first() {
+        let error = Diagnostic::error(codes::FUNCTION_SHAPE, "claims stand in a table with cases or functions");
+        let error = error.at(claim.name.span, "this table has neither");
+        errors.push(error.help("move them into a table that imports this one"));
+    }
     for (index, constant) in table.constants.iter().enumerate() {
         keep(lowering.check_constant(index, &constant.name), &mut errors);
     }
@@ -306,6 +315,7 @@ impl<'t> Lowering<'t> {
                 accuracy,
             }),
             continuity: Vec::new(),
+            claims: None,
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
             written: written::shared(table, &function.name.value),
@@ -348,7 +358,8 @@ impl<'t> Lowering<'t> {
                 Callee::Function(function) => (&function.name, "a function"),
             };
             let checked = names::check_inner(&name.value, what, name.span).and_then(|()| {
-                if built_in::signatures().any(|function| function.name == name.value) {
+                let of_the_language = built_in::signatures().any(|function| function.name == name.value);
+                if of_the_language && built_in::since(&name.value) <= table.language.value {
                     let message = format!("`{}` is a function of the language", name.value);
                     return Err(Diagnostic::error(codes::RESERVED_NAME, message).at(name.span, "choose another name"));
                 }

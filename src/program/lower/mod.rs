@@ -3,10 +3,13 @@
 mod arithmetic;
 mod built_in;
 mod calls;
+mod claims;
 mod collect;
+mod data;
 mod declare;
 mod draw;
 mod examples;
+mod fetches;
 mod functions;
 mod groups;
 mod images;
@@ -84,6 +87,8 @@ struct Lowering<'t> {
     /// The depth to which [`Lowering::term`] is nested in itself.
     depth: u32,
     input_index: HashMap<&'t str, InputId>,
+    /// The fetches with arguments.
+    fetches: Vec<fetches::Fetch<'t>>,
     set_index: HashMap<&'t str, SetId>,
     /// The sets that inputs are the first to have, by their names.
     own_sets: HashMap<&'t str, SetId>,
@@ -147,6 +152,7 @@ impl<'t> Lowering<'t> {
             memo: Memo::default(),
             depth: 0,
             input_index: HashMap::new(),
+            fetches: Vec::new(),
             set_index: HashMap::new(),
             own_sets: HashMap::new(),
             foreign_sets: HashMap::new(),
@@ -174,9 +180,11 @@ impl<'t> Lowering<'t> {
         scope
     }
 
-    /// The texts of the tables that this one imports, directly or not.
+    /// The texts of the tables that this one imports, directly or not, and of the files of data that they name.
     fn imported(&self) -> Vec<Arc<Source>> {
-        self.scopes.iter().skip(1).map(|table| table.source.clone()).collect()
+        let tables = self.scopes.iter().skip(1).map(|table| table.source.clone());
+        let data = self.scopes.iter().flat_map(|table| table.data_files()).map(|file| file.source.clone());
+        tables.chain(data).collect()
     }
 
     /// The inputs that are fetched.
@@ -224,6 +232,12 @@ impl<'t> Lowering<'t> {
             }
         }
         once(errors);
+        // What was called after an example was read is left out there.
+        for example in &mut examples {
+            let rest = self.inputs.iter().skip(example.inputs.len());
+            example.inputs.extend(rest.map(|input| input.default));
+        }
+        let unused_fetches = self.unused_fetches();
         let fetched = self.fetched();
         let choices = self.choices();
         Some(Program {
@@ -247,9 +261,10 @@ impl<'t> Lowering<'t> {
             examples,
             function: None,
             continuity,
+            claims: claims::claims(table, self.programs, errors),
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
-            written: Written { choices, ..written::written(table) },
+            written: Written { choices, unused_fetches, ..written::written(table) },
             decided: Vec::new(),
         })
     }

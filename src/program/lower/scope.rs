@@ -249,11 +249,17 @@ impl Lowering<'_> {
             .constants
             .iter()
             .map(|c| (c, &c.value))
-            .find(|(c, value)| c.name.value == name && matches!(value, table::ConstantValue::List(_)))
+            .find(|(c, value)| c.name.value == name && !matches!(value, table::ConstantValue::Number(_)))
         {
             return error
                 .at(constant.name.span, "a list of constants")
-                .help(format!("lists stand in sums and polynomials: `sum(n in {name}, ...)`, `poly(x, {name})`"));
+                .help(format!("lists stand in sums and polynomials: `sum(n in {name}, ...)`, `poly(x, {name})`"))
+                .help(format!(
+                    "from version 2 on they are also indexed, `{name}[i]`, and interpolated, `lookup({name}, x)`"
+                ));
+        }
+        if let Some(fetch) = self.fetches.iter().find(|fetch| fetch.is_called(name)) {
+            return fetch.needs_arguments(error);
         }
         if let Some(group) = scope.groups.iter().find(|group| group.name.value == name) {
             let pattern = "01-1".chars().cycle().take(group.members.len()).collect::<String>();
@@ -280,6 +286,9 @@ impl Lowering<'_> {
 
     pub(super) fn unknown_input(&self, name: &Spanned<String>, label: &str) -> Diagnostic {
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` is not an input", name.value));
+        if let Some(fetch) = self.fetches.iter().find(|fetch| fetch.is_called(&name.value)) {
+            return fetch.needs_arguments(error.at(name.span, label));
+        }
         let known = || self.inputs.iter().map(|i| i.name.as_str());
         error.at(name.span, label).help(match nearest(&name.value, known()) {
             Some(close) => format!("did you mean `{close}`?"),

@@ -3,6 +3,7 @@
 //! A set is one and the same wherever it is named: by `edge` in its own table, by `shapes::edge` in
 //! one that imports that as `shapes`. Two sets that look alike are two sets.
 
+use super::fetches::Fetch;
 use super::{Lowering, Result, SetId, Term};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::LevelTerm;
@@ -22,6 +23,9 @@ impl<'t> Lowering<'t> {
         if let Some(input) = self.input_index.get(name.value.as_str())
             && let Some(set) = self.input_sets[input.index()]
         {
+            return Ok(set);
+        }
+        if let Some(set) = self.fetches.iter().find(|fetch| fetch.is_called(&name.value)).and_then(Fetch::set) {
             return Ok(set);
         }
         // What the parameters of a function have the levels of need not be a parameter of it. All inputs of the

@@ -184,6 +184,9 @@ impl Lowering<'_> {
                 if let Some(callee) = self.callee(&function.value, env.scope) {
                     return self.call_with(callee, given, span, env);
                 }
+                if let Some(fetch) = self.fetch_named(&function.value, env) {
+                    return self.fetch_with(fetch, given, span, env);
+                }
                 match self.called_table(&function.value, env.scope) {
                     Some(table) => self.table_with(table, given, span, env),
                     None => Err(self.unknown_function(function, env)),
@@ -191,6 +194,8 @@ impl Lowering<'_> {
             }
             ExprKind::Between(body, variable, lo, hi) => self.between(body, variable, [lo, hi], span, env),
             ExprKind::Sum(variable, over, term) => self.sum(variable, over, term, span, env),
+            ExprKind::Iterate(count, variable, start, step) => self.iterate(count, variable, [start, step], span, env),
+            ExprKind::Index(list, indices) => self.item(list, indices, span, env),
             ExprKind::Record(fields) => self.record(fields, span, env, &expected),
             ExprKind::List(items) => self.list(items, span, env, &expected),
             ExprKind::Optional(..) => Err(Diagnostic::error(codes::TYPE, "an item with a condition stands in a list")
@@ -298,6 +303,8 @@ impl Lowering<'_> {
             | ExprKind::With(..)
             | ExprKind::Between(..)
             | ExprKind::Sum(..)
+            | ExprKind::Iterate(..)
+            | ExprKind::Index(..)
             | ExprKind::Record(_) => false,
         }
     }

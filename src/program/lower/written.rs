@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use crate::diag::Spanned;
 use crate::program::Written;
 use crate::table::expr::{BinaryOp, Expr, ExprKind, SumOver};
-use crate::table::{CaseBody, FunctionBody, Image, ResultMap, Table};
+use crate::table::{CaseBody, Claim, FunctionBody, Image, ResultMap, Table};
 
 /// Looks at all that is written in a table of cases.
 pub(super) fn written(table: &Table) -> Written {
@@ -102,6 +102,7 @@ fn unused_names(table: &Table) -> Vec<Spanned<String>> {
         }
     }
     mentions(&table.default, &mut mentioned);
+    table.claims.iter().flat_map(Claim::exprs).for_each(|expr| mentions(expr, &mut mentioned));
     table.assumptions.iter().for_each(|a| mentions(&a.condition, &mut mentioned));
     for symmetry in &table.symmetries {
         symmetry.result.iter().flat_map(ResultMap::exprs).for_each(|r| mentions(r, &mut mentioned));
@@ -137,6 +138,7 @@ fn unused_helpers(table: &Table) -> Vec<Spanned<String>> {
     let mut open: Vec<&Expr> = vec![&table.default];
     open.extend(table.names.iter().map(|named| &named.value));
     open.extend(table.assumptions.iter().map(|assumption| &assumption.condition));
+    open.extend(table.claims.iter().flat_map(Claim::exprs));
     open.extend(table.symmetries.iter().filter_map(|symmetry| symmetry.result.as_ref()).flat_map(ResultMap::exprs));
     let case = |case: &'_ crate::table::Case| -> Vec<Expr> {
         let CaseBody::Rows { when, lines, .. } = &case.body else { return Vec::new() };
@@ -193,5 +195,10 @@ fn mentions<'t>(expr: &'t Expr, found: &mut HashSet<&'t str>) {
         ExprKind::Between(body, _, lo, hi) => all(&[body, lo, hi]),
         ExprKind::Sum(_, SumOver::Items(_), term) => all(&[term]),
         ExprKind::Sum(_, SumOver::Range(lo, hi), term) => all(&[lo, hi, term]),
+        ExprKind::Iterate(count, _, start, step) => all(&[count, start, step]),
+        ExprKind::Index(list, indices) => {
+            mentions(list, found);
+            indices.iter().for_each(|index| mentions(index, found));
+        }
     }
 }

@@ -1,0 +1,54 @@
+//! Inputs in generated code: their types, and the functions of the host that fetch them.
+
+use crate::program::{Domain, Input, LevelKind, Program, Scalar};
+
+/// The type of an input; `levels` is that of named and integer levels.
+pub(super) fn input_type(domain: &Domain, levels: Scalar) -> Scalar {
+    match domain {
+        Domain::Discrete(l) if l.kind == LevelKind::Bool => Scalar::Bool,
+        Domain::Discrete(_) => levels,
+        Domain::Continuous { .. } => Scalar::Float,
+    }
+}
+
+/// A function of the host.
+pub(super) struct Fetch {
+    /// Its name, without what all of them begin with.
+    pub(super) ident: String,
+    /// The type of what it returns.
+    pub(super) scalar: Scalar,
+    /// The arguments that it takes, besides the site.
+    pub(super) parameters: Vec<String>,
+    /// What it is called for: the place among all inputs that are fetched, and the arguments.
+    pub(super) calls: Vec<(usize, Vec<f32>)>,
+}
+
+impl Fetch {
+    /// The arguments as the end of a list of parameters, such as `, dx: f32`; `declare` says one.
+    pub(super) fn parameters(&self, declare: impl Fn(&str) -> String) -> String {
+        self.parameters.iter().map(|name| format!(", {}", declare(name))).collect()
+    }
+}
+
+/// The name of the function that fetches an input, without what all of them begin with.
+pub(super) fn fetch_ident(input: &Input) -> &str {
+    input.call.as_ref().map_or(&input.ident, |call| &call.ident)
+}
+
+/// The functions of the host, in the order declared.
+pub(super) fn fetches(program: &Program) -> Vec<Fetch> {
+    let mut all: Vec<Fetch> = Vec::new();
+    for (place, input) in program.inputs.iter().filter(|input| input.fetched.is_some()).enumerate() {
+        let arguments = input.call.as_ref().map_or(Vec::new(), |call| call.arguments.clone());
+        match all.iter_mut().find(|fetch| fetch.ident == fetch_ident(input)) {
+            Some(known) => known.calls.push((place, arguments)),
+            None => all.push(Fetch {
+                ident: fetch_ident(input).to_owned(),
+                scalar: input_type(&input.domain, Scalar::Uint),
+                parameters: input.call.as_ref().map_or(Vec::new(), |call| call.parameters.clone()),
+                calls: vec![(place, arguments)],
+            }),
+        }
+    }
+    all
+}
