@@ -100,8 +100,12 @@ mod tests {
 
     #[test]
     fn results_in_words() {
-        let levels =
-            Levels { names: ["no", "yes"].map(str::to_owned).into(), codes: vec![0.0, 1.0], kind: LevelKind::Named };
+        let levels = Levels {
+            names: ["no", "yes"].map(str::to_owned).into(),
+            codes: vec![0.0, 1.0],
+            kind: LevelKind::Named,
+            classes: None,
+        };
         let third = 1.0_f32 / 3.0;
         let (number, vector) = (Output::Number(None), Output::Vector(2, None));
         assert_eq!(sentence(&number, &[f64::from(third)], Precision::F32), "0.33333334");

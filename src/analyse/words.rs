@@ -93,7 +93,8 @@ pub(super) fn condition(space: &mut Space<'_>, pattern: &[(usize, LevelSet)]) ->
         };
         let count = program.levels(input)?.count();
         let condition = space.pool.level(input, *levels, count);
-        Some(Printer { pool: &space.pool, inputs: &program.inputs }.cond(condition))
+        let printer = Printer { pool: &space.pool, inputs: &program.inputs };
+        Some(if pattern.len() == 1 { printer.cond(condition) } else { printer.part(condition) })
     });
     let parts: Vec<String> = parts.collect();
     match parts.is_empty() {

@@ -51,6 +51,7 @@ impl<'a> Terms<'a> {
         let term = match self.pool.node(expr) {
             Node::Const(number) => return real(number.get()),
             Node::Input(input) => return self.inputs[input.index()].clone(),
+            Node::Index(input) => format!("(to_real {})", self.inputs[input.index()]),
             // It occurs nowhere else.
             Node::Result(component) => {
                 return self.result.get(usize::from(component)).cloned().unwrap_or_else(|| real(0.0));
@@ -111,6 +112,17 @@ impl<'a> Terms<'a> {
         match op {
             BinaryOp::Multiply => return self.product(script, a, b),
             BinaryOp::Divide => return self.quotient(script, a, b),
+            BinaryOp::WholeQuotient => return self.whole_quotient(script, a, b),
+            BinaryOp::WholeRemainder => {
+                let quotient = self.whole_quotient(script, a, b);
+                let quotient = script.define("Real", &quotient);
+                let a = self.expr(script, a);
+                // Of one divisor: what is not constant was left to the solver by the quotient.
+                let product = self.chosen_or(script, b, &|_, b| format!("(* {} {quotient})", real(b)), &|b| {
+                    format!("(* {b} {quotient})")
+                });
+                return format!("(- {a} {product})");
+            }
             BinaryOp::Add
             | BinaryOp::Subtract
             | BinaryOp::Remainder
@@ -128,7 +140,12 @@ impl<'a> Terms<'a> {
             BinaryOp::Min => smaller(&a, &b),
             BinaryOp::Step => format!("(ite (<= {a} {b}) 1.0 0.0)"),
             BinaryOp::Remainder => format!("({} {a} {b})", script.function("remainder", 2)),
-            BinaryOp::Atan2 | BinaryOp::Pow | BinaryOp::Multiply | BinaryOp::Divide => {
+            BinaryOp::Atan2
+            | BinaryOp::Pow
+            | BinaryOp::Multiply
+            | BinaryOp::Divide
+            | BinaryOp::WholeQuotient
+            | BinaryOp::WholeRemainder => {
                 format!("({} {a} {b})", script.function(op.row().notation.name(), 2))
             }
         }
@@ -191,11 +208,37 @@ impl<'a> Terms<'a> {
         })
     }
 
+    /// A quotient without its fraction.
+    fn whole_quotient(&mut self, script: &mut Script, a: ExprId, b: ExprId) -> String {
+        let quotient = self.quotient(script, a, b);
+        let quotient = script.define("Real", &quotient);
+        format!("(ite (< {quotient} 0.0) (- {}) {})", floor(&format!("(- {quotient})")), floor(&quotient))
+    }
+
+    /// A choice of constants with something made of each, or what is made of a term that is none.
+    fn chosen_or(
+        &mut self,
+        script: &mut Script,
+        expr: ExprId,
+        make: &dyn Fn(&mut Script, f64) -> String,
+        other: &dyn Fn(&str) -> String,
+    ) -> String {
+        match self.choices(expr) {
+            Some(_) => self.chosen(script, expr, make),
+            None => {
+                script.beyond("products of which no factor is a constant");
+                let term = self.expr(script, expr);
+                other(&term)
+            }
+        }
+    }
+
     /// The number of constants that an expression is a choice of, if it is one and they are few.
     fn choices(&self, expr: ExprId) -> Option<usize> {
         let count = match self.pool.node(expr) {
             Node::Const(_) => 1,
             Node::Select(_, a, b) => self.choices(a)? + self.choices(b)?,
+            Node::Index(_) => self.pool.expr_facts(expr).range.1 as usize + 1,
             Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => return None,
         };
         (count <= MAX_CHOICES).then_some(count)
@@ -208,6 +251,15 @@ impl<'a> Terms<'a> {
                 let condition = self.cond(script, condition);
                 let (a, b) = (self.chosen(script, a, make), self.chosen(script, b, make));
                 format!("(ite {condition} {a} {b})")
+            }
+            Node::Index(input) => {
+                let last = self.pool.expr_facts(expr).range.1 as u32;
+                let rest = make(script, f64::from(last));
+                let input = self.inputs[input.index()].clone();
+                (0..last).rev().fold(rest, |rest, level| {
+                    let chosen = make(script, f64::from(level));
+                    format!("(ite (= {input} {level}) {chosen} {rest})")
+                })
             }
             Node::Const(_)
             | Node::Input(_)
@@ -323,7 +375,7 @@ impl<'a> Terms<'a> {
         }
         let term = match pool.node(expr) {
             Node::Const(_) | Node::Result(_) => "false".to_owned(),
-            Node::Input(read) => (read == input).to_string(),
+            Node::Input(read) | Node::Index(read) => (read == input).to_string(),
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let parts: Vec<String> = node.children().map(|part| self.reads(script, part, input)).collect();
                 format!("(or false {})", parts.join(" "))

@@ -153,7 +153,13 @@ fn point(program: &Program, source: &Arc<Source>) -> std::result::Result<(Vec<Op
 /// Some value of an input, to show how one is written.
 fn sample(input: &crate::program::Input) -> String {
     match &input.domain {
-        crate::program::Domain::Discrete(levels) => levels.names.join("|"),
+        crate::program::Domain::Discrete(levels) => {
+            if levels.classes.is_some() {
+                levels.shown(0)
+            } else {
+                levels.names.join("|")
+            }
+        }
         crate::program::Domain::Continuous { lo, .. } => lo.to_string(),
     }
 }

@@ -6,8 +6,18 @@ use crate::program::{Domain, Input, LevelKind, Program, Scalar};
 pub(super) fn input_type(domain: &Domain, levels: Scalar) -> Scalar {
     match domain {
         Domain::Discrete(l) if l.kind == LevelKind::Bool => Scalar::Bool,
+        // What comes in is the integer itself.
+        Domain::Discrete(l) if l.classes.is_some() && levels == Scalar::Float => Scalar::Int,
         Domain::Discrete(_) => levels,
         Domain::Continuous { .. } => Scalar::Float,
+    }
+}
+
+/// The type in which the host gives a fetched input: integers as they are, other levels as their index.
+pub(super) fn fetched_type(domain: &Domain) -> Scalar {
+    match domain {
+        Domain::Discrete(levels) if levels.classes.is_some() => Scalar::Int,
+        Domain::Discrete(_) | Domain::Continuous { .. } => input_type(domain, Scalar::Uint),
     }
 }
 
@@ -44,7 +54,7 @@ pub(super) fn fetches(program: &Program) -> Vec<Fetch> {
             Some(known) => known.calls.push((place, arguments)),
             None => all.push(Fetch {
                 ident: fetch_ident(input).to_owned(),
-                scalar: input_type(&input.domain, Scalar::Uint),
+                scalar: fetched_type(&input.domain),
                 parameters: input.call.as_ref().map_or(Vec::new(), |call| call.parameters.clone()),
                 calls: vec![(place, arguments)],
             }),

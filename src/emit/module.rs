@@ -12,11 +12,11 @@ use super::function::lookup;
 use super::function::outline::MAX_LEVELS;
 use super::inputs::{fetches, input_type};
 use super::language::{Dialect, Prefix, Type, structures};
-use super::names::Names;
+use super::names::{MAX_INTEGERS, Names};
 use super::text::Text;
 use crate::diag::fnv1a;
 use crate::plan::{KeyLayout, Plan};
-use crate::program::{BinaryOp, Domain, Levels, Node, Program, Scalar, TernaryOp, UnaryOp};
+use crate::program::{BinaryOp, Classes, Domain, LevelKind, Levels, Node, Piece, Program, Scalar, TernaryOp, UnaryOp};
 use crate::prove::Proved;
 
 /// Writes the module of a plan.
@@ -88,7 +88,7 @@ impl Writer<'_, '_> {
             self.text.line(prologue);
             self.text.gap();
         }
-        if !self.names.sets.is_empty() {
+        if self.names.sets.iter().any(|set| !set.constants.is_empty()) {
             self.text.comment("Levels, as they stand in a key and as a fetch returns them.");
         }
         for set in &self.names.sets {
@@ -112,9 +112,14 @@ impl Writer<'_, '_> {
         self.text.line(self.dialect.structure(&self.prefix.result(), &fields));
         self.text.gap();
         let remainder = uses(self.plan, |node| matches!(node, Node::Binary(BinaryOp::Remainder, ..)));
+        let is_signed = |piece: &Piece| piece.modulus.is_some_and(|modulus| modulus > 1) && piece.first < 0;
+        let classes = self.names.sets.iter().filter_map(|set| set.levels.classes.as_ref());
+        let signed = uses(self.plan, |node| matches!(node, Node::Binary(BinaryOp::WholeRemainder, ..)))
+            || classes.flat_map(Classes::pieces).any(|piece| is_signed(&piece));
         let smoothstep = uses(self.plan, |node| matches!(node, Node::Ternary(TernaryOp::Smoothstep, ..)));
         let helpers = [
             remainder.then(|| self.dialect.remainder(&self.prefix)),
+            signed.then(|| self.dialect.signed_remainder_function(&self.prefix)),
             smoothstep.then(|| self.dialect.smoothstep(&self.prefix)),
         ];
         for helper in helpers.into_iter().flatten().filter(|helper| !helper.is_empty()) {
@@ -133,9 +138,16 @@ impl Writer<'_, '_> {
 
     /// The level whose code is nearest; the first one for NaN.
     fn level_function(&mut self, set: &str, levels: &Levels) {
+        if let Some(classes) = &levels.classes {
+            return self.class_function(set, classes);
+        }
         let parameter = ("code".to_owned(), Type::FLOAT);
         let name = self.dialect.global(&self.prefix, &format!("{set}_level"));
-        self.text.comment(&format!("Levels of {set} from their codes: {}.", levels.describe()));
+        let described = match (levels.kind, levels.names.as_slice()) {
+            (LevelKind::Int, [first, .., last]) if levels.count() > MAX_INTEGERS => format!("{first} to {last}"),
+            _ => levels.describe(),
+        };
+        self.text.comment(&format!("Levels of {set} from their codes: {described}."));
         self.text.open(self.dialect.function(&name, &[parameter], &Type::UINT, &self.prefix));
         let mut sorted: Vec<(f64, usize)> = levels.codes.iter().copied().zip(0..).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -154,6 +166,63 @@ impl Writer<'_, '_> {
                 .fold(first, |below, i| self.dialect.select(&above(i), &self.dialect.uint(sorted[i].1 as u32), &below))
         };
         self.text.line(format!("return {value};"));
+        self.text.close();
+        self.text.gap();
+    }
+
+    /// The level that an integer is, or the class of integers that it is one of.
+    fn class_function(&mut self, set: &str, classes: &Classes) {
+        let (least, most) = classes.range();
+        let name = self.dialect.global(&self.prefix, &format!("{set}_level"));
+        let parameter = ("integer".to_owned(), Type::from(Scalar::Int));
+        let int = |value: i64| self.dialect.int(value as i32);
+        let limits = match (i32::try_from(least) != Ok(i32::MIN), i32::try_from(most) != Ok(i32::MAX)) {
+            (true, true) => format!(", {least} to {most}"),
+            (true, false) => format!(", from {least}"),
+            (false, true) => format!(", to {most}"),
+            (false, false) => String::new(),
+        };
+        self.text.comment(&match classes.is_each() {
+            true => format!("Levels of {set}, which are integers{limits}; the nearest one of others."),
+            false => format!("The classes of {set}, of integers{limits}; as the nearest one of others."),
+        });
+        let mut at = "integer".to_owned();
+        if i32::try_from(least) != Ok(i32::MIN) {
+            at = self.dialect.int_function("max", &[&at, &int(least)]);
+        }
+        if i32::try_from(most) != Ok(i32::MAX) {
+            at = self.dialect.int_function("min", &[&at, &int(most)]);
+        }
+        let pieces = classes.pieces();
+        let class = |at: &str, piece: &Piece| {
+            let within = match piece.modulus {
+                None if piece.first == 0 => at.to_owned(),
+                None => format!("({at} - {})", int(piece.first)),
+                Some(1) => return self.dialect.uint(piece.base as u32),
+                Some(modulus) if piece.first >= 0 => format!("({at} % {})", int(modulus)),
+                Some(modulus) => {
+                    let rest = self.dialect.signed_remainder(&self.prefix, [at, &int(modulus)]);
+                    format!("(({rest} + {}) % {})", int(modulus), int(modulus))
+                }
+            };
+            let within = self.dialect.converted(Scalar::Int, Scalar::Uint, &within);
+            match piece.base {
+                0 => within,
+                base => format!("{} + {within}", self.dialect.uint(base as u32)),
+            }
+        };
+        self.text.open(self.dialect.function(&name, &[parameter], &Type::UINT, &self.prefix));
+        let last = pieces.len() - 1;
+        if last > 0 && at != "integer" {
+            self.text.line(self.dialect.local(&Scalar::Int.into(), "inside", &at, &self.prefix));
+            at = "inside".to_owned();
+        }
+        for piece in &pieces[..last] {
+            self.text.open(self.dialect.if_open(&format!("{at} <= {}", int(piece.last))));
+            self.text.line(format!("return {};", class(&at, piece)));
+            self.text.close();
+        }
+        self.text.line(format!("return {};", class(&at, &pieces[last])));
         self.text.close();
         self.text.gap();
     }

@@ -29,7 +29,7 @@ pub(super) struct Names {
 pub(super) struct Set {
     /// The name of the first input that has it.
     pub(super) name: String,
-    /// The constants of its levels.
+    /// The constants of its levels; none of integers that are many, or numbers in the table.
     pub(super) constants: Vec<String>,
     /// The levels.
     pub(super) levels: Levels,
@@ -51,7 +51,10 @@ impl Names {
                 // set and level meet in a constant is not to be seen: `a_b` and `c`, `a` and `b_c`.
                 let mut name = fetch_ident(input).to_owned();
                 loop {
-                    let constants = level_constants(&prefix, &name, levels);
+                    let constants = match has_constants(levels) {
+                        true => level_constants(&prefix, &name, levels),
+                        false => Vec::new(),
+                    };
                     if !constants.iter().any(|constant| taken.contains(constant))
                         && functions.insert(format!("{name}_level"))
                     {
@@ -98,16 +101,27 @@ impl Names {
         self.sets.iter().find(|known| known.levels == *levels)
     }
 
-    /// The constant of a level.
-    pub(super) fn level(&self, program: &Program, input: InputId, level: u8) -> &str {
-        let set = program.levels(input).and_then(|levels| self.set(levels));
-        set.map_or("", |set| &set.constants[usize::from(level)])
+    /// The constant of a level, if it has one.
+    pub(super) fn level(&self, program: &Program, input: InputId, level: u8) -> Option<&str> {
+        let set = program.levels(input).and_then(|levels| self.set(levels))?;
+        set.constants.get(usize::from(level)).map(String::as_str)
     }
 
     /// Name and type of a fetched input.
     pub(super) fn fetched(&self, program: &Program, input: InputId) -> (String, Scalar) {
         let input = &program.inputs[input.index()];
         (input.ident.clone(), input_type(&input.domain, Scalar::Uint))
+    }
+}
+
+/// Integers with a constant each, at most.
+pub(super) const MAX_INTEGERS: usize = 16;
+
+fn has_constants(levels: &Levels) -> bool {
+    match (levels.kind, &levels.classes) {
+        (LevelKind::Named | LevelKind::Bool, _) => true,
+        (LevelKind::Int, None) => levels.count() <= MAX_INTEGERS,
+        (LevelKind::Int, Some(_)) => levels.is_wide(),
     }
 }
 

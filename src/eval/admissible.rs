@@ -308,11 +308,21 @@ impl<'p> IntervalInterpreter<'p> {
                 }
                 _ => return Err(Stop::Missing),
             },
+            Node::Index(input) => match self.point[input.index()] {
+                Some(Value::Level(level)) => {
+                    self.look_at(input);
+                    Interval::exactly(f32::from(level)).into()
+                }
+                _ => return Err(Stop::Missing),
+            },
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
             Node::Result(_) => Interval::ANY.into(),
             Node::Unary(op, a) => {
                 let a = self.number(a)?;
                 let image = Interval::unary(op, a.value);
+                if self.is_whole(expr) {
+                    return Ok(image.into());
+                }
                 match op.row().image == Image::Steps {
                     true => self.jump(expr, image)?.into(),
                     false => self.reordered(image, || {
@@ -325,6 +335,9 @@ impl<'p> IntervalInterpreter<'p> {
             Node::Binary(op, a, b) => {
                 let (a, b) = (self.number(a)?, self.number(b)?);
                 let image = Interval::binary(op, a.value, b.value);
+                if self.is_whole(expr) {
+                    return Ok(image.into());
+                }
                 let free = || match op {
                     BinaryOp::Add => Some(a.free.add(b.free)),
                     BinaryOp::Subtract => Some(a.free.subtract(b.free)),
@@ -335,7 +348,13 @@ impl<'p> IntervalInterpreter<'p> {
                             Interval::unary(UnaryOp::Trunc, Interval::binary(BinaryOp::Divide, a.value, b.value));
                         Some(a.free.subtract(b.free.multiply(Free::leaf(whole))))
                     }
-                    BinaryOp::Atan2 | BinaryOp::Max | BinaryOp::Min | BinaryOp::Pow | BinaryOp::Step => None,
+                    BinaryOp::WholeQuotient
+                    | BinaryOp::WholeRemainder
+                    | BinaryOp::Atan2
+                    | BinaryOp::Max
+                    | BinaryOp::Min
+                    | BinaryOp::Pow
+                    | BinaryOp::Step => None,
                 };
                 match op == BinaryOp::Step {
                     true => {
@@ -358,6 +377,11 @@ impl<'p> IntervalInterpreter<'p> {
                 false => self.number(other)?,
             },
         })
+    }
+
+    /// Returns whether an expression is a whole number, which is exact in any order.
+    fn is_whole(&self, expr: ExprId) -> bool {
+        self.program.pool.expr_facts(expr).whole
     }
 
     /// The result of an operation, with those of other orders if they are admitted and it is a sum or product.

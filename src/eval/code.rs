@@ -98,14 +98,20 @@ impl<T: Real> Code<T> {
             let mut target_register = std::mem::take(&mut registers.0[*target]);
             let out = &mut target_register[..len];
             match *instruction {
-                Instruction::Load(input) => {
-                    if let Column::Numbers { values, .. } = columns.column(input) {
+                Instruction::Load(input) => match columns.column(input) {
+                    Column::Numbers { values, .. } => {
                         let values = &values[start..];
                         for (out, row) in out.iter_mut().zip(rows) {
                             *out = values[usize::from(*row)];
                         }
                     }
-                }
+                    Column::Levels(levels) => {
+                        let levels = &levels[start..];
+                        for (out, row) in out.iter_mut().zip(rows) {
+                            *out = T::from_f64(f64::from(levels[usize::from(*row)]));
+                        }
+                    }
+                },
                 Instruction::Unary(op, a) => unary(op, out, registers.argument(a, len)),
                 Instruction::Binary(op, a, b) => {
                     binary(op, out, registers.argument(a, len), registers.argument(b, len));
@@ -158,7 +164,7 @@ impl<T: Real> Compiler<'_, T> {
         }
         let instruction = match self.terms[term.index()] {
             Term::Const(number) => return Operand::Const(T::from_f64(number.get())),
-            Term::Input(input) => Instruction::Load(input),
+            Term::Input(input) | Term::Index(input) => Instruction::Load(input),
             Term::Unary(op, a) => Instruction::Unary(op, self.place(a)),
             Term::Binary(op, a, b) => Instruction::Binary(op, self.place(a), self.place(b)),
             Term::Ternary(op, a, b, c) => Instruction::Ternary(op, self.place(a), self.place(b), self.place(c)),

@@ -214,6 +214,11 @@ impl Interval {
             BinaryOp::Multiply => a.multiply(b),
             BinaryOp::Divide => a.divide(b),
             BinaryOp::Remainder => a.subtract(b.multiply(Self::unary(UnaryOp::Trunc, a.divide(b)))),
+            // Whole numbers are computed as such, and are always known.
+            BinaryOp::WholeQuotient | BinaryOp::WholeRemainder if a.lo == a.hi && b.lo == b.hi => {
+                Self::constant(op.apply(a.lo, b.lo))
+            }
+            BinaryOp::WholeQuotient | BinaryOp::WholeRemainder => Self::ANY,
             BinaryOp::Max => Self { lo: a.lo.max(b.lo), hi: a.hi.max(b.hi) },
             BinaryOp::Min => Self { lo: a.lo.min(b.lo), hi: a.hi.min(b.hi) },
             BinaryOp::Atan2 => a.angle(b),

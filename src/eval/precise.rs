@@ -198,6 +198,10 @@ impl<'p> Precise<'p> {
         let value = match self.program.pool.node(expr) {
             Node::Const(number) => self.constant(number.get()),
             Node::Input(input) => self.input(input)?,
+            Node::Index(input) => match self.point[input.index()] {
+                Some(Value::Level(level)) => self.constant(f64::from(level)),
+                _ => return Err(Unknown::Absent(input)),
+            },
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
             Node::Result(_) => astro_float_num::NAN,
             Node::Unary(op, a) => {
@@ -291,6 +295,7 @@ impl<'p> Precise<'p> {
             BinaryOp::Multiply => multiply(a, b),
             BinaryOp::Divide => divide(a, b),
             BinaryOp::Remainder => subtract(a, &multiply(b, &divide(a, b).int())),
+            BinaryOp::WholeQuotient | BinaryOp::WholeRemainder => number(op.apply(to_f64(a), to_f64(b))),
             BinaryOp::Atan2 => self.angle(a, b),
             BinaryOp::Max => a.max(b),
             BinaryOp::Min => a.min(b),

@@ -49,6 +49,8 @@ impl TermId {
 pub(super) enum Term {
     Const(Number),
     Input(InputId),
+    /// The index of a level.
+    Index(InputId),
     Unary(UnaryOp, TermId),
     Binary(BinaryOp, TermId, TermId),
     Ternary(TernaryOp, TermId, TermId, TermId),
@@ -333,6 +335,13 @@ impl<'p, T: Real> Residual<'p, T> {
                 self.need(known, input)?;
                 self.term(Term::Input(input))
             }
+            Node::Index(input) => {
+                self.need(known, input)?;
+                match known.levels[input.index()] {
+                    one if one.0.is_power_of_two() => self.fixed(T::from_f64(f64::from(one.0.trailing_zeros()))),
+                    _ => self.term(Term::Index(input)),
+                }
+            }
             Node::Result(_) => self.fixed(T::from_f64(f64::NAN)),
             Node::Unary(op, a) => {
                 let a = self.number(known, a)?;
@@ -439,6 +448,7 @@ impl<'p, T: Real> Residual<'p, T> {
         match self.terms[term.index()] {
             Term::Const(number) => Some(T::from_f64(number.get())),
             Term::Input(_)
+            | Term::Index(_)
             | Term::Unary(..)
             | Term::Binary(..)
             | Term::Ternary(..)

@@ -188,6 +188,10 @@ impl<'p, T: Real> Interpreter<'p, T> {
                 self.need(input)?;
                 self.numbers[input.index()]
             }
+            Node::Index(input) => {
+                self.need(input)?;
+                T::from_f64(f64::from(self.levels[input.index()]))
+            }
             // Occurs in the result map of a symmetry only, which is never evaluated at a point.
             Node::Result(_) => T::from_f64(f64::NAN),
             Node::Unary(op, a) => T::unary(op, self.number(a)?),

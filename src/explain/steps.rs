@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::Witness;
 use crate::eval::NeedsFetch;
 use crate::program::operators::Notation;
-use crate::program::{ExprId, Node, Real, Scalar};
+use crate::program::{ExprId, Node, Real, Scalar, print};
 
 /// One operation of a computation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,6 +74,7 @@ impl<T: Real> Steps<'_, '_, T> {
         let operands: Vec<ExprId> = match node {
             Node::Const(number) => return Ok(number.get().to_string()),
             Node::Input(input) => return Ok(self.witness.program.inputs[input.index()].name.clone()),
+            Node::Index(input) => return Ok(print::index(&self.witness.program.inputs[input.index()])),
             Node::Result(_) => return Ok("value".to_owned()),
             Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => node.children().collect(),
             Node::Select(condition, then, other) => {
@@ -146,6 +147,6 @@ fn written(node: Node, operands: &[String]) -> String {
         Node::Unary(op, _) => form(op.row().notation),
         Node::Binary(op, ..) => form(op.row().notation),
         Node::Ternary(op, ..) => form(op.row().notation),
-        Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Select(..) => infix(","),
+        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => infix(","),
     }
 }

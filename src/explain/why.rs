@@ -63,7 +63,7 @@ fn neighbours(program: &Program, arrival: &Arrival) -> Vec<Neighbour> {
             let Some(row) = interpreter.place(&point).ok().and_then(|()| taken(&mut interpreter, program)) else {
                 continue;
             };
-            let change = format!("{}={}", input.name, levels.names[usize::from(level)]);
+            let change = format!("{}={}", input.name, levels.shown(level));
             found.push(Neighbour { change, row });
         }
     }

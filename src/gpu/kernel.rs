@@ -7,9 +7,9 @@ use super::pass::{Bound, Compute, Module, Resources};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::kernel::columns::{COUNTS_PER_WORD, Entry, Layout, buffer_name, glsl_columns, wgsl_columns};
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
-use crate::eval::Columns;
+use crate::eval::{ABSENT, Columns};
 use crate::plan::KeyLayout;
-use crate::program::{Domain, InputId, InputSet, LevelKind, Program};
+use crate::program::{Domain, InputId, InputSet, LevelKind, Levels, Program};
 use crate::prove::Proved;
 
 /// Most rows of one dispatch.
@@ -196,6 +196,7 @@ pub(super) fn plain_words(
                     let level = columns.levels(*input)[row];
                     words.push(match levels.kind {
                         LevelKind::Bool => u32::from(level),
+                        LevelKind::Int if levels.classes.is_some() => integer_word(levels, level),
                         _ => (levels.codes[usize::from(level)] as f32).to_bits(),
                     });
                 }
@@ -205,15 +206,22 @@ pub(super) fn plain_words(
     words
 }
 
+/// An integer that a level stands for.
+fn integer_word(levels: &Levels, level: u8) -> u32 {
+    (levels.codes[usize::from(level)] as i32).cast_unsigned()
+}
+
 /// The fetched inputs, as [`Layout`] says.
 pub(super) fn fetched_words(program: &Program, columns: &Columns<f32>, rows: Range<usize>) -> Vec<u32> {
-    let inputs: Vec<(InputId, bool)> =
-        program.fetched.iter().map(|input| (input, program.levels(input).is_some())).collect();
+    let inputs: Vec<(InputId, Option<&Levels>)> =
+        program.fetched.iter().map(|input| (input, program.levels(input))).collect();
     let mut words = Vec::with_capacity(rows.len() * inputs.len());
     for row in rows {
-        words.extend(inputs.iter().map(|(input, discrete)| {
-            if *discrete {
-                u32::from(columns.levels(*input)[row])
+        words.extend(inputs.iter().map(|(input, levels)| {
+            if let Some(levels) = levels {
+                let level = columns.levels(*input)[row];
+                let is_integer = levels.classes.is_some() && level != ABSENT;
+                if is_integer { integer_word(levels, level) } else { u32::from(level) }
             } else if columns.is_present(row, *input) {
                 columns.numbers(*input)[row].to_bits()
             } else {

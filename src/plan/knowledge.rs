@@ -130,6 +130,10 @@ impl Knowledge {
         }
         let result = match pool.node(expr) {
             Node::Const(_) | Node::Input(_) | Node::Result(_) => expr,
+            Node::Index(input) => match self.levels[input.index()] {
+                one if one.0.is_power_of_two() => pool.number(f64::from(one.0.trailing_zeros())),
+                _ => expr,
+            },
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.expr_memo(pool, part, memo));
                 pool.settle(node)

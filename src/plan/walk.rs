@@ -146,7 +146,7 @@ impl<'a, 'p> Walker<'a, 'p> {
                 f32::ternary(op, self.result(a, values), self.result(b, values), self.result(c, values))
             }
             // A result map is about the result alone.
-            Node::Input(_) | Node::Select(..) => f32::NAN,
+            Node::Input(_) | Node::Index(_) | Node::Select(..) => f32::NAN,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Inputs and the values they can take.
 
 use super::InputId;
+use super::classes::Classes;
 use crate::diag::Span;
 
 /// Most levels of one discrete input.
@@ -73,6 +74,16 @@ pub enum Domain {
     },
 }
 
+impl Domain {
+    /// The numbers that an input, or the index of its level, lies between.
+    pub(super) fn span(&self) -> (f64, f64) {
+        match self {
+            Domain::Discrete(levels) => (0.0, (levels.count() - 1) as f64),
+            Domain::Continuous { lo, hi, .. } => (*lo, *hi),
+        }
+    }
+}
+
 /// The levels of a discrete input.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Levels {
@@ -82,6 +93,8 @@ pub struct Levels {
     pub codes: Vec<f64>,
     /// The kind of input that they belong to.
     pub kind: LevelKind,
+    /// Of integers that are numbers, how they are cut into levels; the codes are the smallest of each.
+    pub classes: Option<Classes>,
 }
 
 /// The kind of a discrete input.
@@ -108,6 +121,10 @@ impl Levels {
 
     /// The level with a name, or with a code written as a number.
     pub fn find(&self, word: &str) -> Option<u8> {
+        if let Some(classes) = &self.classes {
+            let number = word.parse::<f64>().ok().filter(|number| number.fract() == 0.0 && number.abs() < 1e15)?;
+            return classes.find(number as i64);
+        }
         let by_name = self.names.iter().position(|name| name == word);
         let by_code = || {
             let number: f64 = word.parse().ok()?;
@@ -116,8 +133,24 @@ impl Levels {
         by_name.or_else(by_code).map(|index| index as u8)
     }
 
+    /// Returns whether these are integers of which one level may stand for many.
+    pub fn is_wide(&self) -> bool {
+        self.classes.as_ref().is_some_and(|classes| !classes.is_each())
+    }
+
+    /// A level as it is given: its name, or an integer that it stands for.
+    pub fn shown(&self, level: u8) -> String {
+        match self.classes {
+            Some(_) => self.codes[usize::from(level)].to_string(),
+            None => self.names[usize::from(level)].clone(),
+        }
+    }
+
     /// The levels in words, for messages.
     pub fn describe(&self) -> String {
+        if let Some((least, most)) = self.classes.as_ref().map(Classes::range) {
+            return format!("whole numbers from {least} to {most}");
+        }
         let named = |(name, code): (&String, &f64)| match self.kind {
             LevelKind::Named => format!("{name} ({code})"),
             LevelKind::Bool | LevelKind::Int => name.clone(),
@@ -208,9 +241,14 @@ impl Input {
     /// With a message that says what is expected.
     pub fn parse(&self, word: &str) -> Result<Value, String> {
         match &self.domain {
-            Domain::Discrete(levels) => levels.find(word).map(Value::Level).ok_or_else(|| {
-                format!("`{word}` is not a level of `{}`; the levels are: {}", self.name, levels.describe())
-            }),
+            Domain::Discrete(levels) => {
+                levels.find(word).map(Value::Level).ok_or_else(|| match levels.classes.is_some() {
+                    true => format!("`{word}` is no value of `{}`, which has {}", self.name, levels.describe()),
+                    false => {
+                        format!("`{word}` is not a level of `{}`; the levels are: {}", self.name, levels.describe())
+                    }
+                })
+            }
             Domain::Continuous { lo, hi, .. } => match word.parse::<f64>() {
                 Ok(number) if (*lo..=*hi).contains(&number) => Ok(Value::Number(number)),
                 Ok(number) => Err(format!("{number} is not in the range {lo} to {hi} of `{}`", self.name)),
@@ -222,7 +260,7 @@ impl Input {
     /// A value in words.
     pub fn show(&self, value: Value) -> String {
         match (value, &self.domain) {
-            (Value::Level(level), Domain::Discrete(levels)) => levels.names[usize::from(level)].clone(),
+            (Value::Level(level), Domain::Discrete(levels)) => levels.shown(level),
             (Value::Level(level), _) => level.to_string(),
             (Value::Number(number), _) => number.to_string(),
         }

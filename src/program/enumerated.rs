@@ -331,6 +331,8 @@ fn mapped(program: &Program, map: super::ExprId, value: f64) -> f64 {
         Node::Result(_) => value,
         Node::Const(number) => number.get(),
         Node::Binary(op, a, b) => op.apply(mapped(program, a, value), mapped(program, b, value)),
-        Node::Input(_) | Node::Unary(..) | Node::Ternary(..) | Node::Select(..) => panic!("these maps are sums"),
+        Node::Input(_) | Node::Index(_) | Node::Unary(..) | Node::Ternary(..) | Node::Select(..) => {
+            panic!("these maps are sums")
+        }
     }
 }

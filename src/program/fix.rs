@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::domain::{Domain, Input, StateSpace, Value};
+use super::domain::{Input, StateSpace, Value};
 use super::draw::Draw;
 use super::pool::{CondId, ExprId, InputSet, LevelSet, Pool};
 use super::substitute::{Meanings, Substitution};
@@ -41,6 +41,14 @@ impl Meanings for Decided<'_> {
             (Some(Value::Number(number)), _) => self.pool.number(number),
             (_, Some(kept)) => self.pool.input(kept),
             (Some(Value::Level(_)) | None, None) => unreachable!("a continuous input is a number"),
+        }
+    }
+
+    fn index(&mut self, input: InputId) -> ExprId {
+        match (self.values[input.index()], self.kept[input.index()]) {
+            (Some(Value::Level(level)), _) => self.pool.number(f64::from(level)),
+            (_, Some(kept)) => self.pool.index(kept),
+            (Some(Value::Number(_)) | None, None) => unreachable!("a discrete input has a level"),
         }
     }
 
@@ -125,7 +133,7 @@ impl Program {
     fn with(&self, values: &[Option<Value>]) -> Result<Self, Diagnostic> {
         let mut inputs: Vec<Input> = Vec::new();
         let mut kept = vec![None; self.inputs.len()];
-        let mut pool = Pool::default();
+        let mut pool = Pool::of_results(&self.pool);
         let (mut name, mut said) = (self.name.clone(), Vec::new());
         for (id, input) in self.input_ids() {
             match values[id.index()] {
@@ -136,9 +144,7 @@ impl Program {
                 }
                 None => {
                     let new = InputId::new(inputs.len());
-                    if let Domain::Continuous { lo, hi, .. } = input.domain {
-                        pool.declare(new, (lo, hi));
-                    }
+                    pool.declare(new, input.domain.span());
                     kept[id.index()] = Some(new);
                     inputs.push(input.clone());
                 }

@@ -173,6 +173,7 @@ impl Meaning<'_> {
         let words = match node {
             Node::Const(number) => Words::of("number").number(number.get()),
             Node::Input(input) => Words::of("input").word(input.index() as u64),
+            Node::Index(input) => Words::of("index").word(input.index() as u64),
             Node::Result(0) => Words::of("result"),
             Node::Result(component) => Words::of("result").word(u64::from(component)),
             Node::Unary(op, _) => Words::of("unary").text(&format!("{op:?}")),
@@ -223,7 +224,12 @@ fn levels(levels: &Levels) -> u64 {
         LevelKind::Int => "int",
     };
     let words = Words::of(kind).word(levels.names.len() as u64);
-    levels.names.iter().zip(&levels.codes).fold(words, |words, (name, code)| words.text(name).number(*code)).hash()
+    let words =
+        levels.names.iter().zip(&levels.codes).fold(words, |words, (name, code)| words.text(name).number(*code));
+    match levels.classes.as_ref().map(|classes| classes.range()) {
+        Some((least, most)) => words.number(least as f64).number(most as f64).hash(),
+        None => words.hash(),
+    }
 }
 
 /// The kind of the output. Its clamp is a part of every value.

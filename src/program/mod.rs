@@ -19,6 +19,7 @@
 
 mod claimed;
 pub(crate) mod claims;
+mod classes;
 pub(crate) mod comparisons;
 pub mod data_type;
 mod domain;
@@ -38,6 +39,7 @@ pub(crate) mod rational;
 mod reachable;
 pub(crate) mod region;
 mod settle;
+mod spans;
 mod substitute;
 pub(crate) mod symbolic;
 pub(crate) mod turn;
@@ -49,6 +51,7 @@ use crate::diag::{Failure, Source, Span, Spanned};
 use crate::table::{Allow, Erratum, HitPolicy, Table};
 
 pub use claimed::{Claim, ClaimedPair, Claims};
+pub use classes::{Classes, Piece};
 pub use data_type::{Component, DataType, Scalar};
 pub use domain::{Domain, FetchCall, Input, LevelKind, Levels, MAX_LEVELS, StateSpace, Value};
 pub use lower::{LevelTerm, Signature, signatures};

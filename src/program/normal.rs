@@ -157,7 +157,7 @@ impl Normaliser {
         match pool.node(expr) {
             Node::Const(number) => Some(constant(number.get())),
             Node::Input(input) => Some(single(Term::Input(input))),
-            Node::Result(_) | Node::Select(..) => None,
+            Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
             Node::Unary(op, a) => {
                 let form = self.get(pool, a)?;
                 match op.row().algebra {

@@ -155,7 +155,12 @@ mod tests {
     use crate::table::Same;
 
     fn levels() -> Levels {
-        Levels { names: ["no", "yes"].map(str::to_owned).into(), codes: vec![0.0, 1.0], kind: LevelKind::Named }
+        Levels {
+            names: ["no", "yes"].map(str::to_owned).into(),
+            codes: vec![0.0, 1.0],
+            kind: LevelKind::Named,
+            classes: None,
+        }
     }
 
     /// A record with a field of every kind, a record among them.

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::operators::{ANY, BinaryOp, Bounded, Bounds, Comparison, TernaryAlgebra, TernaryOp, UnaryOp};
+use super::operators::{ANY, BinaryOp, Bounded, Bounds, Comparison, TernaryAlgebra, TernaryOp, UnaryAlgebra, UnaryOp};
 use super::{InputId, Real};
 
 /// An expression in a [`Pool`].
@@ -55,6 +55,9 @@ pub enum Node {
     Const(Number),
     /// A continuous input.
     Input(InputId),
+    /// The index of the level of a discrete input. To all that tells cases apart it is a
+    /// selection between constants, one for each level.
+    Index(InputId),
     /// A component of the result, in the result map of a symmetry only.
     Result(u16),
     /// An operation on one number.
@@ -175,8 +178,11 @@ pub struct Facts {
     pub size: u32,
     /// Every input that is mentioned.
     pub inputs: InputSet,
-    /// True if there is a selection anywhere in it.
+    /// True if there is a selection anywhere in it, or a level stands as a number.
     pub selects: bool,
+    /// Of a number, true if it is whole wherever inputs are in their domains, and so small that `f32`
+    /// computes it exactly, in whatever order.
+    pub whole: bool,
     /// Of a number, what it lies between wherever inputs are in their domains, also in `f32`;
     /// everything if it may be infinite or no number.
     pub range: Bounds,
@@ -184,7 +190,7 @@ pub struct Facts {
 
 impl Facts {
     fn leaf(inputs: InputSet) -> Self {
-        Self { depth: 1, size: 1, inputs, selects: false, range: ANY }
+        Self { depth: 1, size: 1, inputs, selects: false, whole: false, range: ANY }
     }
 
     fn join(parts: impl IntoIterator<Item = Facts>) -> Self {
@@ -193,6 +199,7 @@ impl Facts {
             size: all.size.saturating_add(part.size),
             inputs: all.inputs.or(part.inputs),
             selects: all.selects || part.selects,
+            whole: false,
             range: ANY,
         })
     }
@@ -208,10 +215,21 @@ pub struct Pool {
     labels: HashMap<ExprId, String>,
     /// By input, what its domain spans, where that was told.
     domains: Vec<Bounds>,
+    /// By component, between which whole numbers the result lies, where that was told.
+    results: Vec<Option<Bounds>>,
 }
 
 /// Magnitudes beyond this are not taken for finite in `f32`, whatever was rounded on the way.
 const LARGE: f64 = 1e38;
+
+/// Whole numbers up to this one are exact in `f32`, and so are their sums, differences and products up to it.
+pub(crate) const MAX_WHOLE: f64 = 16_777_216.0;
+
+/// Bounds that hold of what was rounded as well.
+fn widened((lo, hi): Bounds) -> Bounds {
+    let rounded = |bound: f64| bound.abs() * 1e-6 + f64::from(f32::MIN_POSITIVE);
+    if (lo, hi) == ANY { ANY } else { (lo - rounded(lo), hi + rounded(hi)) }
+}
 
 impl Pool {
     /// The node of an expression.
@@ -277,7 +295,7 @@ impl Pool {
 
     /// Names an expression; the first name stays.
     pub fn set_label(&mut self, id: ExprId, label: &str) {
-        if !matches!(self.node(id), Node::Const(_) | Node::Input(_) | Node::Result(_)) {
+        if !matches!(self.node(id), Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_)) {
             self.labels.entry(id).or_insert_with(|| label.to_owned());
         }
     }
@@ -298,14 +316,17 @@ impl Pool {
         if let Some(id) = self.expr_index.get(&node) {
             return *id;
         }
-        let facts = if let Node::Input(input) = node {
-            Facts::leaf(InputSet::one(input))
+        let facts = if let Node::Input(input) | Node::Index(input) = node {
+            Facts { selects: matches!(node, Node::Index(_)), ..Facts::leaf(InputSet::one(input)) }
         } else {
             let condition = node.condition().map(|condition| self.cond_facts(condition));
             let facts = Facts::join(node.children().map(|part| self.expr_facts(part)).chain(condition));
             Facts { selects: facts.selects || condition.is_some(), ..facts }
         };
-        let facts = Facts { range: self.range(node), ..facts };
+        let range = self.range(node);
+        let whole = self.is_whole(node, range);
+        let exact = whole || matches!(node, Node::Const(number) if f64::from(number.get() as f32) == number.get());
+        let facts = Facts { range: if exact { range } else { widened(range) }, whole, ..facts };
         let id = ExprId(self.exprs.len() as u32);
         self.exprs.push((node, facts));
         self.expr_index.insert(node, id);
@@ -313,12 +334,12 @@ impl Pool {
     }
 
     /// The numbers that an expression lies between.
-    fn range(&self, node: Node) -> Bounds {
+    pub(crate) fn range(&self, node: Node) -> Bounds {
         let of = |part: ExprId| self.expr_facts(part).range;
         let image: Bounded = match node {
             Node::Const(number) => ((number.get(), number.get()), None),
-            Node::Input(input) => (self.domains.get(input.index()).copied().unwrap_or(ANY), None),
-            Node::Result(_) => (ANY, None),
+            Node::Input(input) | Node::Index(input) => (self.domains.get(input.index()).copied().unwrap_or(ANY), None),
+            Node::Result(component) => (self.result_range(component).unwrap_or(ANY), None),
             Node::Unary(op, a) if op.row().is_plain => op.image(of(a)),
             Node::Binary(op, a, b) if op.row().is_plain || op == BinaryOp::Divide => op.image(of(a), of(b)),
             // What the others give where their operands are rounded is another question.
@@ -332,12 +353,34 @@ impl Pool {
             Node::Select(_, a, b) => ((of(a).0.min(of(b).0), of(a).1.max(of(b).1)), None),
         };
         match image {
-            ((lo, hi), None) if lo > -LARGE && hi < LARGE => {
-                let rounded = |bound: f64| bound.abs() * 1e-6 + f64::from(f32::MIN_POSITIVE);
-                (lo - rounded(lo), hi + rounded(hi))
-            }
+            (range @ (lo, hi), None) if lo > -LARGE && hi < LARGE => range,
             _ => ANY,
         }
+    }
+
+    fn result_range(&self, component: u16) -> Option<Bounds> {
+        self.results.get(usize::from(component)).copied().flatten()
+    }
+
+    /// Returns whether a number that lies between some others is whole, and `f32` has all that it is made of.
+    fn is_whole(&self, node: Node, (lo, hi): Bounds) -> bool {
+        let small = lo >= -MAX_WHOLE && hi <= MAX_WHOLE;
+        let of = |part: ExprId| self.expr_facts(part).whole;
+        small
+            && match node {
+                Node::Const(number) => number.get().fract() == 0.0,
+                Node::Index(_) => true,
+                Node::Result(component) => self.result_range(component).is_some(),
+                Node::Input(_) => false,
+                Node::Unary(op, a) => {
+                    matches!(op.row().algebra, UnaryAlgebra::Negate | UnaryAlgebra::Absolute) && of(a)
+                }
+                Node::Binary(op, a, b) => op.row().keeps_whole && of(a) && of(b),
+                Node::Ternary(op, a, b, c) => {
+                    op.row().algebra == TernaryAlgebra::Clamp && [a, b, c].into_iter().all(of)
+                }
+                Node::Select(_, a, b) => of(a) && of(b),
+            }
     }
 
     fn intern_cond(&mut self, cond: Cond) -> CondId {
@@ -370,9 +413,24 @@ impl Pool {
         self.domains[input.index()] = domain;
     }
 
+    /// Says of each component of the result between which whole numbers it lies, if it is one, before it is mentioned.
+    pub(crate) fn declare_results(&mut self, ranges: Vec<Option<Bounds>>) {
+        self.results = ranges;
+    }
+
+    /// An empty pool for programs with the results of another one's.
+    pub(crate) fn of_results(other: &Pool) -> Self {
+        Self { results: other.results.clone(), ..Self::default() }
+    }
+
     /// A continuous input.
     pub fn input(&mut self, input: InputId) -> ExprId {
         self.intern(Node::Input(input))
+    }
+
+    /// The index of the level of a discrete input that has several.
+    pub fn index(&mut self, input: InputId) -> ExprId {
+        self.intern(Node::Index(input))
     }
 
     /// A component of the result, for the result map of a symmetry.
@@ -401,7 +459,7 @@ impl Pool {
                 [Some(a), Some(b), Some(c)] => agree(op.apply(a, b, c), f32::ternary(op, a as f32, b as f32, c as f32)),
                 _ => true,
             },
-            Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Select(..) => true,
+            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => true,
         }
     }
 
@@ -417,7 +475,7 @@ impl Pool {
             Node::Binary(op, a, b) => self.binary(op, a, b),
             Node::Ternary(op, a, b, c) => self.ternary(op, a, b, c),
             Node::Select(condition, a, b) => self.select(condition, a, b),
-            Node::Const(_) | Node::Input(_) | Node::Result(_) => self.intern(node),
+            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => self.intern(node),
         }
     }
 

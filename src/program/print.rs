@@ -8,6 +8,15 @@ use super::{Comparison, Cond, CondId, Domain, ExprId, Input, LevelKind, Node, Po
 /// Longest text, in bytes; what is longer is broken off.
 const MAX_LENGTH: usize = 4_000;
 
+/// The index of the level of an input; where that is the code, too, as the code, which every version of the language has.
+pub(crate) fn index(input: &Input) -> String {
+    let is_code = match &input.domain {
+        Domain::Discrete(levels) => levels.codes.iter().enumerate().all(|(index, code)| index as f64 == *code),
+        Domain::Continuous { .. } => false,
+    };
+    format!("{}({})", if is_code { "f32" } else { "index" }, input.name)
+}
+
 /// Prints terms of one pool.
 #[derive(Clone, Copy)]
 pub struct Printer<'a> {
@@ -29,6 +38,13 @@ impl Printer<'_> {
     pub fn cond(&self, id: CondId) -> String {
         let mut out = String::new();
         self.write_cond(&mut out, id, 0);
+        out
+    }
+
+    /// A condition that stands beside others, all of which hold.
+    pub fn part(&self, id: CondId) -> String {
+        let mut out = String::new();
+        self.write_cond(&mut out, id, 2);
         out
     }
 
@@ -70,6 +86,7 @@ impl Printer<'_> {
                 let _ = write!(out, "{}", number.get());
             }
             Node::Input(input) => out.push_str(&self.inputs[input.index()].name),
+            Node::Index(input) => out.push_str(&index(&self.inputs[input.index()])),
             Node::Result(_) => out.push_str("value"),
             Node::Unary(op, a) => match op.row().notation {
                 Notation::Function(name, _) => self.call(out, name, &[a]),
@@ -115,6 +132,9 @@ impl Printer<'_> {
         let Cond::Level(input, levels) = self.pool.cond(id) else { return false };
         let input = &self.inputs[input.index()];
         let Domain::Discrete(known) = &input.domain else { return false };
+        if known.is_wide() {
+            return false;
+        }
         let mut members = levels.iter().filter_map(|l| known.names.get(usize::from(l)));
         let (Some(only), None) = (members.next(), members.next()) else { return false };
         let _ = match (known.kind, only.as_str()) {
@@ -133,6 +153,11 @@ impl Printer<'_> {
             Cond::Level(input, levels) => {
                 let input = &self.inputs[input.index()];
                 let Domain::Discrete(known) = &input.domain else { return };
+                if let Some(classes) = known.classes.as_ref().filter(|_| known.is_wide()) {
+                    let (text, binds) = classes.condition(&input.name, *levels);
+                    let _ = if binds < outer { write!(out, "({text})") } else { write!(out, "{text}") };
+                    return;
+                }
                 let names: Vec<&str> =
                     levels.iter().filter_map(|l| known.names.get(usize::from(l)).map(String::as_str)).collect();
                 let _ = match (known.kind, names.as_slice()) {

@@ -44,7 +44,7 @@ impl Pool {
                 let (a, b, c) = (operands[0]?, operands[1]?, operands[2]?);
                 (exact_ternary(op, a, b, c)?, f32::ternary(op, a as f32, b as f32, c as f32))
             }
-            Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Select(..) => return None,
+            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => return None,
         };
         // A constant has no sign of zero.
         let told = wide.is_finite() && narrow.is_finite() && (wide as f32).to_bits() == narrow.to_bits();
@@ -72,7 +72,7 @@ fn exact_binary(op: BinaryOp, a: f64, b: f64) -> Option<f64> {
         BinaryAlgebra::Product => is_product(a, b, value),
         BinaryAlgebra::Quotient => b != 0.0 && is_product(value, b, a),
         BinaryAlgebra::Minimum | BinaryAlgebra::Maximum => true,
-        BinaryAlgebra::Opaque => op == BinaryOp::Step,
+        BinaryAlgebra::Opaque => matches!(op, BinaryOp::Step | BinaryOp::WholeQuotient | BinaryOp::WholeRemainder),
     };
     exact.then_some(value)
 }

@@ -14,6 +14,8 @@ pub(super) trait Meanings {
     fn pool(&mut self) -> &mut Pool;
     /// The meaning of a continuous input.
     fn number(&mut self, input: InputId) -> ExprId;
+    /// The index of the level of a discrete input.
+    fn index(&mut self, input: InputId) -> ExprId;
     /// The condition that an input has one of some levels.
     fn level(&mut self, input: InputId, levels: LevelSet) -> CondId;
 }
@@ -48,6 +50,7 @@ impl<'p, M: Meanings> Substitution<'p, M> {
         }
         let new = match self.from.pool.node(id) {
             Node::Input(input) => self.to.number(input),
+            Node::Index(input) => self.to.index(input),
             Node::Select(condition, then, other) => {
                 let condition = self.cond(condition);
                 // A side that is never chosen is no part of the new program.

@@ -377,6 +377,10 @@ impl<'p> Machine<'p> {
                     }
                 }
             }
+            Node::Index(input) => {
+                let level = self.level(input, view);
+                self.pool.number(f64::from(level))
+            }
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.resolve_memo(part, view, memo));
                 self.pool.settle(node)
@@ -393,7 +397,7 @@ impl<'p> Machine<'p> {
     /// A resolved expression with every minimum and maximum decided, so that it is affine if it can be.
     fn flatten(&mut self, expr: ExprId) -> ExprId {
         match self.pool.node(expr) {
-            Node::Const(_) | Node::Result(_) | Node::Input(_) | Node::Select(..) => expr,
+            Node::Const(_) | Node::Result(_) | Node::Input(_) | Node::Index(_) | Node::Select(..) => expr,
             Node::Unary(op, a) => {
                 let a = self.flatten(a);
                 let zero = self.pool.number(0.0);

@@ -387,6 +387,10 @@ impl<'a, 'p> Prover<'a, 'p> {
         }
         let result = match self.pool.node(expr) {
             Node::Const(_) | Node::Result(_) | Node::Input(_) => expr,
+            Node::Index(input) => {
+                let level = self.oracle.levels[input.index()];
+                self.pool.number(f64::from(level))
+            }
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.decided_memo(part, memo));
                 self.pool.settle(node)
@@ -446,6 +450,10 @@ impl<'a, 'p> Prover<'a, 'p> {
             Node::Input(input) if self.absent.contains(input) => {
                 let least = self.plan.program.inputs[input.index()].least();
                 self.pool.number(least)
+            }
+            Node::Index(input) => {
+                let level = self.level(input, fetched);
+                self.pool.number(f64::from(level))
             }
             Node::Const(_) | Node::Result(_) | Node::Input(_) => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {

@@ -100,7 +100,7 @@ fn operation(
             }
             Domain::Discrete(_) => None,
         },
-        Node::Result(_) | Node::Select(..) => None,
+        Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
         Node::Unary(op, a) => {
             let a = of(a)?;
             match op.row().algebra {

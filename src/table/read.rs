@@ -92,7 +92,9 @@ enum InputRon<'a> {
         default: Option<Raw<'a>>,
     },
     Int {
+        #[serde(default = "least")]
         from: i64,
+        #[serde(default = "most")]
         to: i64,
         #[serde(default)]
         doc: String,
@@ -113,6 +115,15 @@ enum InputRon<'a> {
         #[serde(default)]
         default: Option<Raw<'a>>,
     },
+}
+
+/// The bounds of integers that are not bounded.
+fn least() -> i64 {
+    i32::MIN.into()
+}
+
+fn most() -> i64 {
+    i32::MAX.into()
 }
 
 #[derive(Deserialize)]

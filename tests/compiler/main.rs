@@ -11,6 +11,7 @@ mod emitted_names;
 mod emitted_rust;
 mod generated;
 mod glslang;
+mod integers;
 #[cfg(feature = "precise")]
 mod integrals;
 mod intervals;

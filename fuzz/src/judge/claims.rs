@@ -471,6 +471,7 @@ impl Trace<'_> {
             }
             node @ (Node::Const(_)
             | Node::Input(_)
+            | Node::Index(_)
             | Node::Result(_)
             | Node::Unary(..)
             | Node::Binary(..)

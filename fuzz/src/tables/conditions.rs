@@ -5,8 +5,17 @@ use super::expression::{AND, COMPARISON, Construct, MEMBER, OR, PREFIX, Piece, S
 use super::inputs::Kind;
 
 /// The constructs that make conditions.
-pub(super) const ALL: &[Construct] =
-    &[(5, both), (4, one_of), (3, not), (5, comparison), (5, level), (2, equivalent), (1, truth)];
+pub(super) const ALL: &[Construct] = &[
+    (5, both),
+    (4, one_of),
+    (3, not),
+    (5, comparison),
+    (5, level),
+    (2, equivalent),
+    (1, truth),
+    (3, super::whole::comparison),
+    (4, super::whole::asked),
+];
 
 const CONDITION: Type = Type::Condition;
 
@@ -62,9 +71,13 @@ fn level(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -> Op
         .iter()
         .filter_map(|visible| match visible.ty {
             Type::Level(set) => Some((visible.text.clone(), set)),
-            Type::Number | Type::Condition | Type::Whole(..) | Type::Vector(_) | Type::Record(_) | Type::List(..) => {
-                None
-            }
+            Type::Number
+            | Type::Condition
+            | Type::Whole(..)
+            | Type::Wide
+            | Type::Vector(_)
+            | Type::Record(_)
+            | Type::List(..) => None,
         })
         .collect();
     if levels.is_empty() {
@@ -164,6 +177,7 @@ impl Maker<'_, '_> {
         match kind {
             Kind::Bool => self.operand(&scope, &CONDITION, 1, OR),
             Kind::Levels(set) => self.operand(&scope, &Type::Level(set), 1, OR),
+            Kind::Wide(_) => self.choices.pick(&["0", "3", "100"]).to_string(),
             Kind::Range(lo, hi) => {
                 let numbers: Vec<String> = scope.of(&Type::Number).iter().map(|visible| visible.text.clone()).collect();
                 match self.choices.below(3) {

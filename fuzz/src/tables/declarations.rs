@@ -48,6 +48,7 @@ impl Maker<'_, '_> {
             let kind = self.inputs[place].kind;
             let other = self.alike(kind).into_iter().find(|other| {
                 *other > place
+                    && !matches!(kind, Kind::Wide(_))
                     && self.inputs[*other].fetched == self.inputs[place].fetched
                     && images.iter().all(|(mapped, _)| *mapped != self.inputs[*other].name)
             });
@@ -58,6 +59,7 @@ impl Maker<'_, '_> {
             }
             let image = match kind {
                 Kind::Bool => format!("\"!{name}\""),
+                Kind::Wide(_) => continue,
                 Kind::Levels(set) if self.sets[set].integers => continue,
                 Kind::Levels(set) => {
                     let levels = self.sets[set].levels.clone();
@@ -81,7 +83,7 @@ impl Maker<'_, '_> {
     fn exchange(&mut self, images: &mut Vec<(String, String)>, kind: Kind, here: &str, there: &str) {
         let written = |from: &str| match kind {
             Kind::Levels(_) => format!("From(\"{from}\", {{}})"),
-            Kind::Bool | Kind::Range(..) => format!("\"{from}\""),
+            Kind::Bool | Kind::Range(..) | Kind::Wide(_) => format!("\"{from}\""),
         };
         let by_levels = matches!(kind, Kind::Levels(set) if !self.sets[set].integers) && self.choices.either();
         let image = |from: &str| if by_levels { written(from) } else { format!("\"{from}\"") };
@@ -113,6 +115,7 @@ impl Maker<'_, '_> {
             }
             let (name, kind) = (self.inputs[place].name.clone(), self.inputs[place].kind);
             let hint = match kind {
+                Kind::Wide(_) => continue,
                 Kind::Range(..) => match (&run, self.choices.below(3)) {
                     // Runs are rare, so one that is there is used.
                     (Some(run), 0 | 2) => format!("Position(\"{run}\")"),

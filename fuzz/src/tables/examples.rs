@@ -50,7 +50,7 @@ fn value(input: &Input, random: &mut Random) -> Value {
 fn shown(input: &Input, value: Value) -> String {
     match (value, &input.domain) {
         (Value::Level(level), Domain::Discrete(levels)) => {
-            let name = &levels.names[usize::from(level)];
+            let name = &levels.shown(level);
             if name.starts_with(|c: char| c.is_alphabetic()) && name != "true" && name != "false" {
                 format!("\"{name}\"")
             } else {

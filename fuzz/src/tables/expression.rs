@@ -12,6 +12,8 @@ pub(super) enum Type {
     Vector(usize),
     /// A whole number of a range.
     Whole(i32, i32),
+    /// An integer of any range, which is nothing but asked for.
+    Wide,
     /// Values with names.
     Record(Vec<(String, Type)>),
     /// At most so many values of one type.
@@ -29,7 +31,7 @@ impl Type {
         match self {
             Type::Number | Type::Vector(_) => true,
             Type::Record(fields) => fields.iter().all(|(_, ty)| ty.is_numeric()),
-            Type::Condition | Type::Level(_) | Type::Whole(..) | Type::List(..) => false,
+            Type::Condition | Type::Level(_) | Type::Whole(..) | Type::Wide | Type::List(..) => false,
         }
     }
 }
@@ -131,7 +133,8 @@ impl Maker<'_, '_> {
             Type::Level(_) => super::levels::ALL,
             Type::Vector(_) => super::vectors::ALL,
             Type::Record(_) => super::records::ALL,
-            Type::Whole(..) => super::levels::ALL,
+            Type::Whole(..) => super::whole::ALL,
+            Type::Wide => &[],
             Type::List(..) => super::levels::LISTS,
         };
         let all = || own.iter().chain(ANY);
@@ -205,6 +208,7 @@ impl Maker<'_, '_> {
             Type::Whole(from, to) => {
                 Piece::new(PREFIX, (i64::from(*from) + self.choices.below((to - from + 1) as usize) as i64).to_string())
             }
+            Type::Wide => Piece::primary("1"),
             Type::Record(fields) => super::records::written(self, scope, fields, 0),
             Type::List(..) => super::levels::items(self, scope, ty, 0).unwrap_or_else(|| Piece::primary("[]")),
         }

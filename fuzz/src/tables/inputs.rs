@@ -31,6 +31,8 @@ pub(super) enum Kind {
     Levels(usize),
     Bool,
     Range(&'static str, &'static str),
+    /// Integers from this one on.
+    Wide(Option<i32>),
 }
 
 impl Kind {
@@ -39,6 +41,7 @@ impl Kind {
             Kind::Levels(set) => Type::Level(set),
             Kind::Bool => Type::Condition,
             Kind::Range(..) => Type::Number,
+            Kind::Wide(_) => Type::Wide,
         }
     }
 }
@@ -98,6 +101,7 @@ impl Maker<'_, '_> {
                 }
                 Kind::Bool => (*self.choices.pick(&["false", "true"])).to_owned(),
                 Kind::Range(lo, hi) => self.inside((lo, hi)),
+                Kind::Wide(_) => self.choices.pick(&["0", "2", "17", "1000000"]).to_string(),
             };
             if self.choices.either() {
                 list.push(("default", value));
@@ -112,6 +116,7 @@ impl Maker<'_, '_> {
             let word = match kind {
                 Kind::Bool => "Bool",
                 Kind::Range(..) => "Range",
+                Kind::Wide(_) => "Int",
                 Kind::Levels(set) if self.sets[set].integers && list.iter().any(|(name, _)| *name == "from") => "Int",
                 Kind::Levels(_) => "Levels",
             };
@@ -142,7 +147,8 @@ impl Maker<'_, '_> {
 
     /// The kind of an input with at most so many levels, what makes it that, its name, and how many levels it has.
     fn input(&mut self, room: usize, crowded: bool) -> (Kind, Vec<Field>, String, usize) {
-        match self.choices.weighted([4, 6, 4, if crowded { 0 } else { 2 }].into_iter()) {
+        let wide = self.modern && !crowded && room >= 12;
+        match self.choices.weighted([4, 6, 4, if crowded { 0 } else { 2 }, usize::from(wide) * 2].into_iter()) {
             0 => (Kind::Bool, Vec::new(), self.name("b"), 2),
             1 => {
                 let (lo, hi) = self.bounds();
@@ -168,6 +174,11 @@ impl Maker<'_, '_> {
                 let size = levels.len();
                 self.sets.push(Set { name: Some(name.clone()), levels, codes, integers: false });
                 (Kind::Levels(self.sets.len() - 1), vec![("values", map(&entries))], name, size)
+            }
+            4 => {
+                let from = if self.choices.either() { Some(0) } else { None };
+                let list = from.map(|from: i32| ("from", from.to_string())).into_iter().collect();
+                (Kind::Wide(from), list, self.name("n"), 12)
             }
             _ => {
                 let name = self.name("i");

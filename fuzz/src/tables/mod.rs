@@ -2,7 +2,7 @@
 //!
 //! `docs/language.md` lists the constructs; here each is an entry of a registry, a weight and
 //! a function, in the file of what it makes: [`numbers`], [`conditions`], [`levels`],
-//! [`vectors`], [`records`] for expressions, [`inputs`], [`cases`], [`declarations`],
+//! [`vectors`], [`records`], [`whole`] for expressions, [`inputs`], [`cases`], [`declarations`],
 //! [`functions`] for the parts of a table. A new construct is a function there and its line in
 //! the registry; `every_construct_is_made` below fails until it is also looked for in what comes
 //! out. What a table means plays no part here: only that it is a table.
@@ -20,6 +20,7 @@ mod literals;
 mod numbers;
 mod records;
 mod vectors;
+mod whole;
 
 use crate::choices::Choices;
 use expression::{Scope, Type};
@@ -232,6 +233,12 @@ mod tests {
         "normalize(",
         "cross(",
         "f32(",
+        "index(",
+        "count(",
+        "f32(index",
+        " / (1 + abs(",
+        "Int(from: 0)",
+        "Int()",
         ".x",
         ".rg",
         "==",

@@ -27,6 +27,7 @@ pub(super) const ALL: &[Construct] = &[
     (1, polynomial),
     (1, between),
     (1, third),
+    (2, super::whole::number),
 ];
 
 const NUMBER: Type = Type::Number;
@@ -170,9 +171,13 @@ fn of_record(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -
         .iter()
         .filter_map(|v| match &v.ty {
             Type::Record(fields) => Some((v.text.clone(), fields.iter().map(|(name, _)| name.clone()).collect())),
-            Type::Number | Type::Condition | Type::Level(_) | Type::Whole(..) | Type::Vector(_) | Type::List(..) => {
-                None
-            }
+            Type::Number
+            | Type::Condition
+            | Type::Level(_)
+            | Type::Whole(..)
+            | Type::Wide
+            | Type::Vector(_)
+            | Type::List(..) => None,
         })
         .collect();
     let (text, names) = match records.is_empty() {

@@ -16,7 +16,13 @@ pub(super) fn written(maker: &mut Maker<'_, '_>, scope: &Scope, fields: &[(Strin
 fn written_out(maker: &mut Maker<'_, '_>, scope: &Scope, ty: &Type, depth: usize) -> Option<Piece> {
     match ty {
         Type::Record(fields) => Some(written(maker, scope, fields, depth)),
-        Type::Number | Type::Condition | Type::Level(_) | Type::Whole(..) | Type::Vector(_) | Type::List(..) => None,
+        Type::Number
+        | Type::Condition
+        | Type::Level(_)
+        | Type::Whole(..)
+        | Type::Wide
+        | Type::Vector(_)
+        | Type::List(..) => None,
     }
 }
 

@@ -12,7 +12,13 @@ pub(super) const ALL: &[Construct] =
 fn size(ty: &Type) -> usize {
     match ty {
         Type::Vector(size) => *size,
-        Type::Number | Type::Condition | Type::Level(_) | Type::Whole(..) | Type::Record(_) | Type::List(..) => 1,
+        Type::Number
+        | Type::Condition
+        | Type::Level(_)
+        | Type::Whole(..)
+        | Type::Wide
+        | Type::Record(_)
+        | Type::List(..) => 1,
     }
 }
 

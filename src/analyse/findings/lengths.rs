@@ -91,7 +91,9 @@ fn most(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, f64>) -> f64 {
     let found = match pool.node(expr) {
         Node::Const(number) => number.get(),
         Node::Select(_, a, b) => most(pool, a, known).max(most(pool, b, known)),
-        Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => f64::INFINITY,
+        Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+            f64::INFINITY
+        }
     };
     known.insert(expr, found);
     found

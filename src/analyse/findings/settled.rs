@@ -74,6 +74,7 @@ fn candidates(study: &mut Study<'_>, value: ExprId) -> Vec<f64> {
         Node::Ternary(TernaryOp::Clamp, _, lo, hi) => [pool.constant(lo), pool.constant(hi)],
         Node::Const(number) => [Some(number.get()), None],
         Node::Input(_)
+        | Node::Index(_)
         | Node::Result(_)
         | Node::Unary(..)
         | Node::Binary(..)

@@ -30,6 +30,9 @@ use crate::program::{
 /// Most selection-free values that one expression may have.
 const MAX_PARTS: usize = 1024;
 
+/// Most combinations of such values that are tried.
+const MAX_TRIED: usize = 16 * MAX_PARTS;
+
 /// Number of a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(in crate::analyse) struct View(usize);
@@ -455,6 +458,11 @@ impl<'p> Space<'p> {
                     false => self.parts(image.unwrap_or(expr), inner).to_vec(),
                 }
             }
+            Node::Index(input) => {
+                let count = self.program.levels(input).map_or(0, |levels| levels.count()) as u8;
+                let level = |level| (self.level(input, LevelSet::one(level), view), self.pool.number(f64::from(level)));
+                (0..count).map(level).collect()
+            }
             Node::Unary(op, a) => {
                 let parts = self.parts(a, view);
                 parts.iter().map(|(set, a)| (*set, self.pool.unary(op, *a))).collect()
@@ -487,7 +495,8 @@ impl<'p> Space<'p> {
         let mut result: Vec<(Set, Vec<ExprId>)> = vec![(Set::ALL, Vec::new())];
         for expr in list {
             let parts = self.parts(*expr, view);
-            if result.len() * parts.len() > MAX_PARTS || self.sets.budget().is_spent() {
+            // Most of what is put together is nowhere, if it depends on the same levels.
+            if result.len() * parts.len() > MAX_TRIED || self.sets.budget().is_spent() {
                 self.too_large = true;
                 return Vec::new();
             }
@@ -496,6 +505,10 @@ impl<'p> Space<'p> {
                 for (part, value) in parts.iter() {
                     let both = self.sets.and(*set, *part);
                     if !both.is_empty() {
+                        if next.len() == MAX_PARTS {
+                            self.too_large = true;
+                            return Vec::new();
+                        }
                         next.push((both, values.iter().copied().chain([*value]).collect()));
                     }
                 }
@@ -526,7 +539,7 @@ impl<'p> Space<'p> {
     fn component_with_result(&mut self, map: ExprId, values: &[ExprId]) -> ExprId {
         match self.pool.node(map) {
             Node::Result(component) => values.get(usize::from(component)).copied().unwrap_or(map),
-            Node::Const(_) | Node::Input(_) => map,
+            Node::Const(_) | Node::Input(_) | Node::Index(_) => map,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.component_with_result(part, values));
                 self.pool.fold(node)

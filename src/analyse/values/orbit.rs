@@ -27,7 +27,7 @@ fn result_at(pool: &Pool, map: ExprId, values: &[f64]) -> Option<f64> {
         Node::Binary(op, a, b) => op.apply(at(a)?, at(b)?),
         Node::Ternary(op, a, b, c) => op.apply(at(a)?, at(b)?, at(c)?),
         Node::Select(condition, then, other) => at(if condition_at(pool, condition, values)? { then } else { other })?,
-        Node::Input(_) => return None,
+        Node::Input(_) | Node::Index(_) => return None,
     })
 }
 
@@ -174,6 +174,7 @@ pub(in crate::analyse) fn chosen(pool: &mut Pool, value: ExprId, point: &Point) 
     }
     match pool.node(value) {
         Node::Const(_) | Node::Input(_) | Node::Result(_) => value,
+        Node::Index(input) => pool.number(f64::from(point.levels[input.index()])),
         node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
             let node = node.map(|part| chosen(pool, part, point));
             pool.fold(node)

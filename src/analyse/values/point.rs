@@ -98,6 +98,7 @@ impl Point {
         match pool.node(expr) {
             Node::Const(number) => number.get(),
             Node::Input(input) => self.numbers[input.index()],
+            Node::Index(input) => f64::from(self.levels[input.index()]),
             Node::Result(_) => f64::NAN,
             Node::Unary(op, a) => op.apply(at(a)),
             Node::Binary(op, a, b) => op.apply(at(a), at(b)),

@@ -92,7 +92,7 @@ pub(in crate::analyse) struct Trouble {
 pub(in crate::analyse) fn is_partial(pool: &Pool, expr: ExprId) -> bool {
     let any = |parts: &[ExprId]| parts.iter().any(|part| is_partial(pool, *part));
     match pool.node(expr) {
-        Node::Const(_) | Node::Input(_) | Node::Result(_) => false,
+        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => false,
         Node::Unary(op, a) => !op.row().is_plain || any(&[a]),
         Node::Binary(BinaryOp::Divide, a, b) if pool.constant(b).is_some() => any(&[a, b]),
         Node::Binary(BinaryOp::Multiply, a, b) if pool.constant(a).is_none() && pool.constant(b).is_none() => true,
@@ -180,7 +180,7 @@ fn evaluate(pool: &Pool, expr: ExprId, part: &Boxed, trouble: &mut Option<Troubl
     let (result, what) = match pool.node(expr) {
         Node::Const(number) => ((number.get(), number.get()), None),
         Node::Input(input) => (part.of(input), None),
-        Node::Result(_) | Node::Select(..) => (ANY, None),
+        Node::Index(_) | Node::Result(_) | Node::Select(..) => (ANY, None),
         Node::Unary(op, a) => op.image(at(a)),
         Node::Binary(op, a, b) => op.image(at(a), at(b)),
         Node::Ternary(op, a, b, c) => op.image(at(a), at(b), at(c)),

@@ -115,7 +115,7 @@ impl<'p> Rounding<'p> {
         // These pass one of their operands on, or the whole number beside it.
         let passes = match node {
             Node::Const(number) => f64::from(number.get() as f32) == number.get(),
-            Node::Input(_) => true,
+            Node::Input(_) | Node::Index(_) => true,
             Node::Result(_) => false,
             Node::Unary(op, _) => op.row().algebra != UnaryAlgebra::Opaque || op.row().image == Image::Steps,
             Node::Binary(op, ..) => matches!(op.row().algebra, BinaryAlgebra::Minimum | BinaryAlgebra::Maximum),
@@ -139,6 +139,7 @@ impl<'p> Rounding<'p> {
     fn grid_anew(&mut self, expr: ExprId) -> Option<Grid> {
         match self.pool.node(expr) {
             Node::Const(number) => Grid::of(number.get()),
+            Node::Index(_) => Some(Grid { unit: 1.0, most: crate::program::MAX_LEVELS as f64 }),
             Node::Input(_) | Node::Result(_) => None,
             Node::Unary(op, a) => {
                 let a = self.grid(a)?;

@@ -106,6 +106,7 @@ fn fails(pool: &Pool, value: ExprId, point: &Point) -> Option<f32> {
     let result = match pool.node(value) {
         Node::Const(number) => number.get() as f32,
         Node::Input(input) => point.numbers[input.index()] as f32,
+        Node::Index(input) => f32::from(point.levels[input.index()]),
         Node::Result(_) => return None,
         Node::Unary(op, a) => f32::unary(op, at(a)?),
         Node::Binary(op, a, b) => f32::binary(op, at(a)?, at(b)?),

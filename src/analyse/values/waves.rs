@@ -172,7 +172,7 @@ impl Reader<'_> {
                 let terms = BTreeMap::from([(Product { powers, ..Product::default() }, 1.0)]);
                 Some(Sum { terms, size: self.most(input) })
             }
-            Node::Result(_) | Node::Select(..) => None,
+            Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
             Node::Unary(op, a) => {
                 let a = self.sum(a)?;
                 match (op, op.row().algebra, a.number()) {

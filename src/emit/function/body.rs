@@ -176,7 +176,7 @@ impl<'a, 'p> Body<'a, 'p> {
                 }
                 Step::Fetch { input, next } => {
                     let (ident, ty) = self.names.fetched(self.plan.program, input);
-                    let call = self.dialect.fetch(self.prefix, &self.plan.program.inputs[input.index()]);
+                    let call = self.fetched(input);
                     let line = self.dialect.local(&ty.into(), &ident, &call, self.prefix);
                     self.text.line(line);
                     if self.outline.is_function(next) {
@@ -199,6 +199,18 @@ impl<'a, 'p> Body<'a, 'p> {
         }
     }
 
+    /// A call of the host for an input; of an integer, the level that it is.
+    fn fetched(&self, input: InputId) -> String {
+        let call = self.dialect.fetch(self.prefix, &self.plan.program.inputs[input.index()]);
+        match self.plan.program.levels(input).filter(|levels| levels.classes.is_some()) {
+            Some(levels) => {
+                let set = self.names.set(levels).map_or("", |set| &set.name);
+                format!("{}({call})", self.dialect.global(self.prefix, &format!("{set}_level")))
+            }
+            None => call,
+        }
+    }
+
     /// A fetch that is made where a condition holds, in sight of all that follows.
     fn gather(&mut self, input: InputId, condition: CondId) {
         let (ident, ty) = self.names.fetched(self.plan.program, input);
@@ -211,8 +223,7 @@ impl<'a, 'p> Body<'a, 'p> {
             return;
         }
         let open = self.test(condition);
-        let call = self.dialect.fetch(self.prefix, &self.plan.program.inputs[input.index()]);
-        self.block(open, |me| me.text.line(format!("{ident} = {call};")));
+        self.block(open, |me| me.text.line(format!("{ident} = {};", me.fetched(input))));
     }
 
     /// The first line of a conditional, after the locals that its condition needs.

@@ -5,9 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use super::body::Body;
 use crate::emit::language::{Type, bare, value};
 use crate::plan::Leaf;
-use crate::program::{
-    Comparison, Cond, CondId, DataType, Domain, ExprId, InputId, LevelKind, LevelSet, Node, Pool, Scalar,
-};
+use crate::program::{BinaryOp, Comparison, Cond, CondId, DataType, ExprId, LevelSet, Node, Pool, Scalar};
 
 /// Most choices of a result that are written where they stand; of more, those that stand in several places get a local.
 const MAX_REPEATED: u32 = 64;
@@ -60,7 +58,11 @@ impl Body<'_, '_> {
         let components: Vec<(Scalar, ExprId)> =
             data.components().iter().map(|component| component.scalar).zip(leaf.values.iter().copied()).collect();
         self.computed_constants(&leaf.values, &[]);
-        let numbers = components.iter().filter(|(scalar, _)| *scalar == Scalar::Float);
+        let numbers = components.iter().filter(|(scalar, value)| match scalar {
+            Scalar::Float => true,
+            Scalar::Uint | Scalar::Int => self.is_calculated(*value),
+            Scalar::Bool => false,
+        });
         self.declare(&numbers.map(|(_, value)| *value).collect::<Vec<_>>());
         let shared = self.shared_choices(&components);
         let components = components.iter().map(|(scalar, value)| match scalar {
@@ -132,9 +134,16 @@ impl Body<'_, '_> {
                 let ident = &self.plan.program.inputs[input.index()].ident;
                 self.renamed.get(ident).unwrap_or(ident).clone()
             }
+            Node::Index(input) => {
+                let ident = &self.plan.program.inputs[input.index()].ident;
+                self.dialect.converted(Scalar::Uint, Scalar::Float, ident)
+            }
             // In the result map of a symmetry.
             Node::Result(component) => self.result.get(usize::from(component)).cloned().unwrap_or_default(),
             Node::Unary(op, a) => self.dialect.unary(self.prefix, op, &of(a)),
+            Node::Binary(BinaryOp::WholeQuotient | BinaryOp::WholeRemainder, ..) => {
+                self.dialect.converted(Scalar::Int, Scalar::Float, &self.whole(expr, Scalar::Int))
+            }
             Node::Binary(op, a, b) => self.dialect.binary(self.prefix, op, &of(a), &of(b)),
             Node::Ternary(op, a, b, c) => self.dialect.ternary(self.prefix, op, &of(a), &of(b), &of(c)),
             Node::Select(c, a, b) => {
@@ -191,15 +200,9 @@ impl Body<'_, '_> {
                 let [a, b] = [a, b].map(|side| self.choice(scalar, side, shared));
                 self.dialect.select(bare(&condition), &a, &b)
             }
-            (node, scalar) => {
-                let value = if let Node::Const(number) = node { number.get() } else { 0.0 };
-                match scalar {
-                    Scalar::Float => self.dialect.number(value),
-                    Scalar::Uint => self.dialect.uint(value as u32),
-                    Scalar::Int => self.dialect.int(value as i32),
-                    Scalar::Bool => (value != 0.0).to_string(),
-                }
-            }
+            (_, Scalar::Uint | Scalar::Int) => self.whole(expr, scalar),
+            (_, Scalar::Float) => self.expr(expr),
+            (_, Scalar::Bool) => known(expr).is_some_and(|value| value != 0.0).to_string(),
         }
     }
 
@@ -235,26 +238,5 @@ impl Body<'_, '_> {
                 self.dialect.select(bare(&c), bare(&a), bare(&b))
             }
         }
-    }
-
-    fn level(&self, input: InputId, levels: LevelSet) -> String {
-        let declared = &self.plan.program.inputs[input.index()];
-        let name = &declared.ident;
-        let Domain::Discrete(known) = &declared.domain else { return "false".to_owned() };
-        if known.kind == LevelKind::Bool {
-            return if levels.contains(1) { name.clone() } else { format!("!{name}") };
-        }
-        let constant = |level: u8| self.names.level(self.plan.program, input, level);
-        let inside: Vec<u8> = levels.iter().collect();
-        let outside: Vec<u8> = (0..known.count() as u8).filter(|l| !levels.contains(*l)).collect();
-        let all = |levels: &[u8], symbol: &str, joint: &str| {
-            let parts: Vec<String> = levels.iter().map(|l| format!("{name} {symbol} {}", constant(*l))).collect();
-            if let [one] = parts.as_slice() {
-                return format!("({one})");
-            }
-            let parts: Vec<String> = parts.iter().map(|p| format!("({p})")).collect();
-            format!("({})", parts.join(joint))
-        };
-        if inside.len() <= outside.len() { all(&inside, "==", " || ") } else { all(&outside, "!=", " && ") }
     }
 }

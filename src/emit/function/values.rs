@@ -18,7 +18,7 @@ use crate::program::{CondId, ExprId, Node, Pool, UnaryOp};
 const MAX_NESTING: usize = 24;
 
 /// Largest side of a selection that is written in place.
-const MAX_PLAIN: u32 = 40;
+pub(super) const MAX_PLAIN: u32 = 40;
 
 /// The values that a block of statements needs whichever way its selections go.
 #[derive(Default)]
@@ -96,7 +96,7 @@ impl Body<'_, '_> {
         let depth = 1 + node.children().filter_map(|c| depths.get(&c)).max().copied().unwrap_or(0);
         depths.insert(expr, depth);
         let label = pool.label(expr);
-        let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Result(_));
+        let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_));
         if trivial || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
             return;
         }
@@ -180,6 +180,7 @@ impl Body<'_, '_> {
             },
             node @ (Node::Const(_)
             | Node::Input(_)
+            | Node::Index(_)
             | Node::Result(_)
             | Node::Unary(..)
             | Node::Binary(..)
@@ -273,7 +274,9 @@ fn is_safe(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, bool>) -> bool
 /// Returns whether an operation is cheap and has a finite result for all finite operands that are not huge.
 fn cannot_fail(node: Node) -> bool {
     match node {
-        Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Ternary(..) | Node::Select(..) => true,
+        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Ternary(..) | Node::Select(..) => {
+            true
+        }
         Node::Unary(op, _) => op.row().is_plain,
         Node::Binary(op, ..) => op.row().is_plain,
     }

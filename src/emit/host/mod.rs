@@ -7,7 +7,7 @@
 
 pub(crate) mod wgpu;
 
-use super::inputs::{fetches, input_type};
+use super::inputs::{fetched_type, fetches};
 use super::language::rust::Rust;
 use super::language::{Dialect, Prefix, Type, structures};
 use super::module;
@@ -133,6 +133,7 @@ impl Side<'_, '_> {
         let mut variants: Vec<String> = Vec::new();
         for level in &set.levels.names {
             let mut variant = match set.levels.kind {
+                LevelKind::Int if set.levels.is_wide() => format!("Level{}", capitals(level)),
                 LevelKind::Int => format!("Level{}", level.replace('-', "Minus")),
                 LevelKind::Named | LevelKind::Bool => capitals(level),
             };
@@ -158,6 +159,22 @@ impl Side<'_, '_> {
             text.line(format!("    {variant} => {},", literal(name)));
         }
         text.close_with("    }\n}");
+        if set.levels.classes.is_some() {
+            text.doc("The integer that it is, or the smallest one of its class.");
+            text.open("pub fn integer(self) -> i32 {\n    match self {");
+            for (variant, code) in all.iter().zip(&set.levels.codes) {
+                text.line(format!("    {variant} => {},", *code as i64));
+            }
+            text.close_with("    }\n}");
+            text.doc("The one that an integer is, or is one of.");
+            text.open("pub fn of(integer: i32) -> Self {");
+            let function = Rust.global(&self.prefix, &format!("{}_level", set.name));
+            text.line(format!("Self::ALL[{function}(integer) as usize]"));
+            text.close();
+            text.close();
+            text.gap();
+            return;
+        }
         text.doc("The number that stands for it where levels are passed as `f32`.");
         text.open("pub fn code(self) -> f32 {\n    match self {");
         for (variant, code) in all.iter().zip(&set.levels.codes) {
@@ -230,7 +247,7 @@ impl Side<'_, '_> {
     /// The fetched inputs as fields.
     pub(super) fn fetched_fields(&self) -> Vec<(String, &'static str)> {
         let fetched = self.program.inputs.iter().filter(|input| input.fetched.is_some());
-        let ty = |input: &Input| match input_type(&input.domain, Scalar::Uint) {
+        let ty = |input: &Input| match fetched_type(&input.domain) {
             Scalar::Float => "f32",
             Scalar::Uint | Scalar::Bool => "u32",
             Scalar::Int => "i32",

@@ -1,7 +1,7 @@
 //! GLSL. One text serves 450, 330 core and ES 300: it uses unsigned integers
 //! and `switch`, which all of them have, and no `fma`, which ES 300 lacks.
 
-use super::{Dialect, Prefix, Type};
+use super::{Dialect, Prefix, Type, call};
 use crate::emit::inputs::Fetch;
 use crate::program::Scalar;
 use crate::program::operators::{Spelling, Spellings};
@@ -77,6 +77,17 @@ impl Dialect for Glsl {
         // A function, because written in place it would double its operands, and nested ones exponentially.
         format!(
             "// WGSL's `%`: `mod` rounds down, this towards zero.\nfloat {}_remainder(float a, float b) {{\n    return a - b * trunc(a / b);\n}}",
+            prefix.lower
+        )
+    }
+
+    fn signed_remainder(&self, prefix: &Prefix, [a, b]: [&str; 2]) -> String {
+        call(&self.global(prefix, "whole_remainder"), &[a, b])
+    }
+
+    fn signed_remainder_function(&self, prefix: &Prefix) -> String {
+        format!(
+            "// The language leaves its own `%` undefined for negative numbers.\nint {}_whole_remainder(int a, int b) {{\n    return a - a / b * b;\n}}",
             prefix.lower
         )
     }

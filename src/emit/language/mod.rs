@@ -235,6 +235,29 @@ pub(super) trait Dialect {
             Scalar::Bool => "false".to_owned(),
         }
     }
+    /// A number of one kind as one of another.
+    fn converted(&self, from: Scalar, to: Scalar, value: &str) -> String {
+        match from == to {
+            true => value.to_owned(),
+            false => format!("{}({})", self.scalar(to), bare(value)),
+        }
+    }
+    /// A function of whole numbers: `abs`, `min` or `max`.
+    fn int_function(&self, name: &str, operands: &[&str]) -> String {
+        call(name, operands)
+    }
+    /// The remainder of whole numbers, of which the first may be negative.
+    fn signed_remainder(&self, _: &Prefix, [a, b]: [&str; 2]) -> String {
+        format!("({a} % {b})")
+    }
+    /// A function for that, where the language has none.
+    fn signed_remainder_function(&self, _: &Prefix) -> String {
+        String::new()
+    }
+    /// The condition that a word has a bit.
+    fn has_bit(&self, word: &str, at: &str) -> String {
+        format!("((({word} >> {at}) & {}) != {})", self.uint(1), self.uint(0))
+    }
     /// Calls the host for a fetched input.
     fn fetch(&self, prefix: &Prefix, input: &Input) -> String {
         let arguments: String = self.arguments(input).iter().map(|argument| format!(", {argument}")).collect();

@@ -2,7 +2,7 @@
 //! floating-point functions of `std`. What else is in the module, and its end,
 //! is added by [`host`](crate::emit::host).
 
-use super::{Dialect, Prefix, Type};
+use super::{Dialect, Prefix, Type, bare, call};
 use crate::emit::inputs::{Fetch, fetch_ident};
 use crate::program::operators::{Spelling, Spellings};
 use crate::program::{Input, Scalar};
@@ -115,6 +115,18 @@ impl Dialect for Rust {
 
     fn fetch(&self, _: &Prefix, input: &Input) -> String {
         format!("site.{}({})", fetch_ident(input), self.arguments(input).join(", "))
+    }
+
+    fn converted(&self, from: Scalar, to: Scalar, value: &str) -> String {
+        if from == to { value.to_owned() } else { format!("({value} as {})", self.scalar(to)) }
+    }
+
+    fn int_function(&self, name: &str, operands: &[&str]) -> String {
+        call(&format!("i32::{name}"), operands)
+    }
+
+    fn has_bit(&self, word: &str, at: &str) -> String {
+        format!("((u32::wrapping_shr({}, {}) & 1) != 0)", bare(word), bare(at))
     }
 
     fn float_from_bits(&self, word: &str) -> String {

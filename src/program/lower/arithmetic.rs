@@ -5,10 +5,15 @@
 //! judged, and it judges them as `f32`, which is what shaders compute in.
 
 use super::terms::{Term, type_error};
-use super::{Lowering, Result};
+use super::{Lowering, Result, SINCE};
 use crate::diag::{Diagnostic, Span, codes};
+use crate::program::InputId;
 use crate::program::operators::{BinaryOp, Comparison, TernaryAlgebra, TernaryOp, UnaryOp};
-use crate::program::pool::{CondId, ExprId, Node};
+use crate::program::pool::{CondId, ExprId, LevelSet, Node};
+use crate::program::spans::Tabulation;
+
+/// Most operations of a comparison that is looked at level by level.
+const MAX_TABULATED: u32 = 2_000;
 
 /// Refuses a constant that no shader can contain.
 fn check_finite(value: f64, span: Span) -> Result<()> {
@@ -98,13 +103,46 @@ impl Lowering<'_> {
 
     /// A comparison of two numbers; see [`Self::unary_number`].
     pub(super) fn comparison(&mut self, op: Comparison, a: ExprId, b: ExprId) -> CondId {
+        if let Some(decided) = self.decided_by_level(op, a, b) {
+            return decided;
+        }
         match self.calling.is_empty() {
             true => self.pool.compare(op, a, b),
             false => self.pool.recompare(op, a, b),
         }
     }
 
+    /// A comparison that the level of one input decides, as the levels for which it holds.
+    fn decided_by_level(&mut self, op: Comparison, a: ExprId, b: ExprId) -> Option<CondId> {
+        let facts = [a, b].map(|side| self.pool.expr_facts(side));
+        let inputs: Vec<InputId> = facts[0].inputs.or(facts[1].inputs).iter().collect();
+        let [input] = *inputs.as_slice() else { return None };
+        let set = self.input_sets[input.index()].filter(|_| self.table.language.value >= SINCE)?;
+        if facts[0].size.saturating_add(facts[1].size) > MAX_TABULATED {
+            return None;
+        }
+        let count = self.sets[set.0].count();
+        let mut levels = LevelSet(0);
+        for level in 0..count as u8 {
+            let wide = [a, b].map(|side| Tabulation::<f64>::new(&self.pool, input, level).number(side));
+            let narrow = [a, b].map(|side| Tabulation::<f32>::new(&self.pool, input, level).number(side));
+            let holds = op.holds(wide[0], wide[1]);
+            let told = wide.iter().all(|side| side.is_finite()) && narrow.iter().all(|side| side.is_finite());
+            // What is no number has findings of its own, and where f32 decides otherwise, code has to.
+            if !told || holds != op.holds(narrow[0], narrow[1]) {
+                return None;
+            }
+            if holds {
+                levels.0 |= LevelSet::one(level).0;
+            }
+        }
+        Some(self.pool.level(input, levels, count))
+    }
+
     pub(super) fn map1(&mut self, op: UnaryOp, a: Term, span: Span) -> Result<Term> {
+        if let Some([a]) = self.wholes([&a], span)? {
+            return self.whole_unary(op, a, span);
+        }
         match a {
             Term::Number(a) => Ok(Term::Number(self.unary_number(op, a, span)?)),
             Term::Vector(parts) => {
@@ -114,7 +152,9 @@ impl Lowering<'_> {
                 let parts = parts.into_iter().map(|(name, a)| Ok((name, self.map1(op, a, span)?)));
                 Ok(Term::Record(parts.collect::<Result<_>>()?))
             }
-            other @ (Term::Bool(_) | Term::Level(..) | Term::List(_)) => Err(self.no_number(&other, span)),
+            other @ (Term::Whole(_) | Term::Bool(_) | Term::Level(..) | Term::List(_)) => {
+                Err(self.no_number(&other, span))
+            }
         }
     }
 
@@ -131,15 +171,21 @@ impl Lowering<'_> {
                     pairs.map(|((name, a), (_, b))| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
                 return Ok(Term::Record(pairs.collect::<Result<_>>()?));
             }
-            (Term::Record(x), Term::Number(_)) => {
+            (Term::Record(x), Term::Number(_) | Term::Whole(_)) => {
                 let parts = x.iter().map(|(name, a)| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
                 return Ok(Term::Record(parts.collect::<Result<_>>()?));
             }
-            (Term::Number(_), Term::Record(y)) => {
+            (Term::Number(_) | Term::Whole(_), Term::Record(y)) => {
                 let parts = y.iter().map(|(name, b)| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
                 return Ok(Term::Record(parts.collect::<Result<_>>()?));
             }
             _ => {}
+        }
+        if let Some(limited) = self.wide_binary(op, &a, &b, span)? {
+            return Ok(limited);
+        }
+        if let Some([a, b]) = self.wholes([&a, &b], span)? {
+            return self.whole_binary(op, a, b, span);
         }
         let mut parts = Vec::new();
         let (a, b, scalar) = self.broadcast(a, b, span)?;
@@ -150,6 +196,12 @@ impl Lowering<'_> {
     }
 
     pub(super) fn map3(&mut self, op: TernaryOp, a: Term, b: Term, c: Term, span: Span) -> Result<Term> {
+        if let Some(limited) = self.wide_ternary(op, [&a, &b, &c], span)? {
+            return Ok(limited);
+        }
+        if let Some(operands) = self.wholes([&a, &b, &c], span)? {
+            return self.whole_ternary(op, operands, span);
+        }
         let (b, c, scalar) = self.broadcast(b, c, span)?;
         let wrap = |parts: Vec<ExprId>| if parts.len() == 1 { Term::Number(parts[0]) } else { Term::Vector(parts) };
         let (a, b, also_scalar) = self.broadcast(a, wrap(b), span)?;
@@ -180,9 +232,9 @@ impl Lowering<'_> {
                 let error = Diagnostic::error(codes::TYPE, message).at(span, "in this operation");
                 Err(match b {
                     Term::Level(..) | Term::Bool(_) => {
-                        error.help("`f32(...)` gives the number of a level or condition")
+                        self.later(&b, error.help("`f32(...)` gives the number of a level or condition"))
                     }
-                    Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => error,
+                    Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => error,
                 })
             }
             (a, _) => Err(self.no_number(&a, span)),

@@ -8,7 +8,7 @@
 
 use super::scope::Env;
 use super::terms::{Call, Expected, Term, type_error};
-use super::{Lowering, Result};
+use super::{Lowering, Result, SINCE};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::operators::{BinaryOp, Notation, Operator, UnaryOp};
 use crate::program::pool::ExprId;
@@ -51,7 +51,7 @@ pub(super) struct BuiltIn {
     /// Takes any number of arguments of the kind of its one parameter.
     repeats: bool,
     /// The version of the language that it came with.
-    since: u32,
+    pub(super) since: u32,
     /// Its meaning in a few words.
     doc: &'static str,
     meaning: Meaning,
@@ -74,6 +74,26 @@ static ALL: &[BuiltIn] = &[
         since: 1,
         doc: "of a level its code; of a condition 1 or 0; of a number itself",
         meaning: Meaning::Written(|lowering, call| lowering.number_of(&call.arguments[0], call.env)),
+    },
+    BuiltIn {
+        name: "index",
+        parameters: &[("a", Kind::Value)],
+        repeats: false,
+        since: SINCE,
+        doc: "of a level its place among the others, counted from 0; of a condition 1 or 0",
+        meaning: Meaning::Written(|lowering, call| lowering.index_of(&call.arguments[0], call.env)),
+    },
+    BuiltIn {
+        name: "count",
+        parameters: &[("...", Kind::Condition)],
+        repeats: true,
+        since: SINCE,
+        doc: "the number of conditions that hold",
+        meaning: Meaning::Written(|lowering, call| {
+            let conditions = call.arguments.iter().map(|argument| lowering.condition(argument, call.env));
+            let conditions = conditions.collect::<Result<Vec<_>>>()?;
+            lowering.count(&conditions, call.span)
+        }),
     },
     BuiltIn::vector("vec2", "numbers and vectors joined to a vector of 2; a single number is repeated", |_, a, at| {
         joined("vec2", 2, a, at)
@@ -206,9 +226,9 @@ pub(super) fn named(name: &str) -> Option<&'static BuiltIn> {
     ALL.iter().find(|function| function.name == name)
 }
 
-/// The version of the language that a function came with; operators were always there.
-pub(super) fn since(name: &str) -> u32 {
-    named(name).map_or(1, |function| function.since)
+/// Returns whether a version of the language has a function of this name.
+pub(super) fn is_taken(name: &str, language: u32) -> bool {
+    Operator::named(name).is_some() || named(name).is_some_and(|function| function.since <= language)
 }
 
 /// Refuses a call with another number of arguments.
@@ -258,7 +278,7 @@ impl Lowering<'_> {
         match self.term(argument, env, Expected::Anything)? {
             Term::Number(number) => Ok(vec![number]),
             Term::Vector(parts) => Ok(parts),
-            other @ (Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
+            other @ (Term::Whole(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
                 Err(self.no_number(&other, argument.span))
             }
         }

@@ -14,11 +14,8 @@ impl Lowering<'_> {
     /// A call of a function: of the language, of the table or of one that it imports, or of an operator.
     pub(super) fn call(&mut self, function: &Spanned<String>, call: Call<'_>) -> Result<Term> {
         let name = function.value.as_str();
-        // A table may have a function of that name if it was not the language's by then.
-        let is_later = built_in::since(name) > self.scopes[call.env.scope].language.value;
-        if let Some(built_in) = built_in::named(name)
-            && !(is_later && self.callee(name, call.env.scope).is_some())
-        {
+        let language = self.scopes[call.env.scope].language.value;
+        if let Some(built_in) = built_in::named(name).filter(|function| function.since <= language) {
             return self.built_in(built_in, call);
         }
         if let Some(callee) = self.callee(name, call.env.scope) {
@@ -84,7 +81,8 @@ impl Lowering<'_> {
     /// `f32(level)`, `f32(condition)`, `f32(number)`.
     pub(super) fn number_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         match self.term(argument, env, Expected::Anything)? {
-            Term::Number(number) => Ok(Term::Number(number)),
+            Term::Number(number) | Term::Whole(number) => Ok(Term::Number(number)),
+            Term::Level(set, _) if self.is_wide(set) => Err(self.too_wide(set, argument.span)),
             Term::Level(set, term) => {
                 Ok(Term::Number(self.level_number(set, &term, |me, level| me.sets[set.0].codes[usize::from(level)])))
             }
@@ -98,7 +96,24 @@ impl Lowering<'_> {
         }
     }
 
+    /// `index(level)`, `index(condition)`.
+    pub(super) fn index_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+        match self.term(argument, env, Expected::Anything)? {
+            Term::Level(set, _) if self.is_wide(set) => Err(self.too_wide(set, argument.span)),
+            Term::Level(set, term) => Ok(Term::Whole(self.level_number(set, &term, |_, level| f64::from(level)))),
+            Term::Bool(condition) => self.count(&[condition], argument.span),
+            other @ (Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::List(_) | Term::Record(_)) => {
+                Err(type_error(argument.span, &self.describe(&other), "expected a level or a condition"))
+            }
+        }
+    }
+
     pub(super) fn unknown_function(&self, function: &Spanned<String>, env: &Env) -> Diagnostic {
+        if let Some(built_in) = built_in::named(&function.value)
+            && let Err(error) = self.table.since(built_in.since, function.span, &format!("`{}`", built_in.name))
+        {
+            return error;
+        }
         let mut own = self.callable(env.scope);
         own.extend(self.fetches_in_sight(env).map(str::to_owned));
         let known = || own.iter().map(String::as_str).chain(built_in::signatures().map(|function| function.name));

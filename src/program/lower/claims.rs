@@ -6,6 +6,7 @@
 
 use super::scope::Env;
 use super::terms::{Expected, Term};
+use super::wide::{AllCuts, refined};
 use super::{Lowering, Programs, Result, keep, once};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::domain::StateSpace;
@@ -18,7 +19,14 @@ pub(super) fn claims(table: &Table, programs: Programs, errors: &mut Vec<Diagnos
     if table.claims.is_empty() {
         return None;
     }
-    let mut lowering = Lowering::new(table, programs);
+    let (claims, found) = refined(|cuts| lowered(table, programs.clone(), cuts));
+    errors.extend(found);
+    claims
+}
+
+/// The claims with the mistakes in them, and the cuts of wide integers that they still need.
+fn lowered(table: &Table, programs: Programs, cuts: &AllCuts) -> ((Option<Box<Claims>>, Vec<Diagnostic>), AllCuts) {
+    let mut lowering = Lowering::new(table, programs, cuts);
     let inputs: Vec<&table::Input> = table.inputs.iter().collect();
     // What is wrong with the declarations was said before.
     lowering.declare(&inputs, &mut Vec::new());
@@ -33,8 +41,8 @@ pub(super) fn claims(table: &Table, programs: Programs, errors: &mut Vec<Diagnos
         all.extend(keep(lowering.claim(claim), &mut found));
     }
     once(&mut found);
-    errors.extend(found);
-    let states = StateSpace::new(&[]).ok()?;
+    let wanted = std::mem::take(&mut lowering.wanted);
+    let Ok(states) = StateSpace::new(&[]) else { return ((None, found), wanted) };
     let nothing = lowering.pool.number(0.0);
     let program = Program {
         source: table.source.clone(),
@@ -63,7 +71,7 @@ pub(super) fn claims(table: &Table, programs: Programs, errors: &mut Vec<Diagnos
         written: Written::default(),
         decided: Vec::new(),
     };
-    Some(Box::new(Claims { program, all }))
+    ((Some(Box::new(Claims { program, all })), found), wanted)
 }
 
 impl Lowering<'_> {
@@ -127,7 +135,7 @@ impl Lowering<'_> {
     /// The numbers that a value consists of, each with what it is called in it; a condition is 1 or 0.
     fn claimed(&mut self, term: Term, part: &str, span: Span, all: &mut Vec<(String, ExprId)>) -> Result<()> {
         match term {
-            Term::Number(number) => all.push((part.to_owned(), number)),
+            Term::Number(number) | Term::Whole(number) => all.push((part.to_owned(), number)),
             Term::Bool(condition) => {
                 let (one, zero) = (self.pool.number(1.0), self.pool.number(0.0));
                 all.push((part.to_owned(), self.pool.select(condition, one, zero)));

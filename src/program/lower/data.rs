@@ -4,6 +4,7 @@
 //! An index by a level becomes a choice between constants. What is indexed is known to lie in the
 //! list before anything runs, or it is refused.
 
+use std::ops::RangeInclusive;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -15,7 +16,7 @@ use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::LevelTerm;
 use crate::program::domain::LevelKind;
 use crate::program::operators::{BinaryOp, Comparison};
-use crate::program::pool::{ExprId, LevelSet};
+use crate::program::pool::{CondId, ExprId, LevelSet};
 use crate::table::expr::{Expr, ExprKind};
 use crate::table::{Constant, ConstantValue, Table};
 use crate::text::closest::nearest;
@@ -26,6 +27,8 @@ const MAX_KNOTS: usize = 1024;
 /// The place in a list that an index means.
 enum At {
     Known(usize),
+    /// A whole number, and the places that it lies between.
+    Whole(ExprId, RangeInclusive<usize>),
     /// A level, and the place that each level means.
     Level(SetId, Arc<LevelTerm>, Vec<usize>),
 }
@@ -99,29 +102,23 @@ impl<'t> Lowering<'t> {
             }
             None => At::Known(0),
         };
+        let either = |me: &mut Self, condition, a, b| me.memo.level(LevelTerm::If(condition, a, b));
         // Items of the first dimension, of which the second index picks one.
         let of = |me: &mut Self, row: &[u8]| match &second {
-            At::Known(place) => me.memo.level(LevelTerm::Const(row[*place])),
             At::Level(_, term, places) => {
                 let map: Vec<u8> = places.iter().map(|place| row[*place]).collect();
                 me.memo.level(LevelTerm::Map(term.clone(), map.into()))
             }
+            At::Known(_) | At::Whole(..) => {
+                me.pick(&second, &mut |me, place| me.memo.level(LevelTerm::Const(row[place])), &either)
+            }
         };
         let term = match (&first, &second) {
-            (At::Known(place), _) => of(self, &levels[*place]),
             (At::Level(_, term, places), At::Known(second)) => {
                 let map: Vec<u8> = places.iter().map(|place| levels[*place][*second]).collect();
                 self.memo.level(LevelTerm::Map(term.clone(), map.into()))
             }
-            (At::Level(from, term, places), At::Level(..)) => {
-                let mut rest = of(self, &levels[places[places.len() - 1]]);
-                for (level, place) in places.iter().enumerate().rev().skip(1) {
-                    let condition = self.level_in(*from, term, LevelSet::one(level as u8));
-                    let then = of(self, &levels[*place]);
-                    rest = self.memo.level(LevelTerm::If(condition, then, rest));
-                }
-                rest
-            }
+            _ => self.pick(&first, &mut |me, place| of(me, &levels[place]), &either),
         };
         Ok(Term::Level(set, term))
     }
@@ -190,6 +187,17 @@ impl<'t> Lowering<'t> {
                     .help("what may be anywhere in a list is an `Int` input, a level or a condition")
                     .help(format!("`lookup({name}, x)` interpolates at a number from 0 to 1"))),
             },
+            Term::Whole(number) => {
+                let (lo, hi) = self.pool.expr_facts(number).range;
+                if !(lo >= 0.0 && hi < count as f64) {
+                    let what = if lo < 0.0 { lo } else { hi };
+                    return Err(outside(format!("this can be {what}")).help("limit it with `clamp`, `min` or `%`"));
+                }
+                Ok(match self.pool.constant(number) {
+                    Some(place) => At::Known(place as usize),
+                    None => At::Whole(number, lo as usize..=hi as usize),
+                })
+            }
             Term::Level(set, term) => {
                 let levels = &self.sets[set.0];
                 let places: Vec<f64> = match levels.kind {
@@ -231,18 +239,35 @@ impl<'t> Lowering<'t> {
             place.pop();
             value
         };
-        match first {
-            At::Known(chosen) => of(self, *chosen),
-            At::Level(set, term, places) => {
-                let mut value = of(self, places[places.len() - 1]);
-                for (level, chosen) in places.iter().enumerate().rev().skip(1) {
-                    let condition = self.level_in(*set, term, LevelSet::one(level as u8));
-                    let then = of(self, *chosen);
-                    value = self.pool.select(condition, then, value);
+        self.pick(first, &mut of, &|me, condition, a, b| me.pool.select(condition, a, b))
+    }
+
+    /// What stands at a place; `either` chooses between two things by a condition.
+    fn pick<T>(
+        &mut self,
+        at: &At,
+        of: &mut dyn FnMut(&mut Self, usize) -> T,
+        either: &dyn Fn(&mut Self, CondId, T, T) -> T,
+    ) -> T {
+        let (last, others) = match at {
+            At::Known(place) => (*place, Vec::new()),
+            At::Level(_, _, places) => (places[places.len() - 1], places[..places.len() - 1].to_vec()),
+            At::Whole(_, places) => (*places.end(), (*places.start()..*places.end()).collect()),
+        };
+        let mut value = of(self, last);
+        for (level, place) in others.into_iter().enumerate().rev() {
+            let condition = match at {
+                At::Known(_) => continue,
+                At::Level(set, term, _) => self.level_in(*set, term, LevelSet::one(level as u8)),
+                At::Whole(whole, _) => {
+                    let place = self.pool.number(place as f64);
+                    self.pool.compare(Comparison::Equal, *whole, place)
                 }
-                value
-            }
+            };
+            let then = of(self, place);
+            value = either(self, condition, then, value);
         }
+        value
     }
 
     /// The numbers of a list of constants, item by item.

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use super::{Lowering, Result, SetId, examples, keep};
+use super::{Lowering, Result, SINCE, SetId, examples, keep};
 use crate::diag::{Code, Diagnostic, Span, Spanned, codes};
 use crate::program::InputId;
 use crate::program::domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace};
@@ -45,9 +45,7 @@ impl<'t> Lowering<'t> {
             }
             if let Some(checked) = keep(self.input(input), errors) {
                 let id = InputId::new(self.inputs.len());
-                if let Domain::Continuous { lo, hi, .. } = checked.domain {
-                    self.pool.declare(id, (lo, hi));
-                }
+                self.pool.declare(id, checked.domain.span());
                 self.input_index.insert(&input.name.value, id);
                 self.inputs.push(checked);
             }
@@ -153,6 +151,7 @@ impl<'t> Lowering<'t> {
             names: levels.iter().map(|l| l.name.value.clone()).collect(),
             codes: levels.iter().map(|l| l.code.value).collect(),
             kind: LevelKind::Named,
+            classes: None,
         })
     }
 
@@ -166,20 +165,27 @@ impl<'t> Lowering<'t> {
             table::Domain::Levels(levels) => self.level_set(levels, span)?,
             table::Domain::LevelsOf(name) => return self.find_set(name).map(Some),
             table::Domain::Bool => return Ok(Some(SetId::BOOL)),
+            table::Domain::Int(from, to) if self.table.language.value >= SINCE => self.integers(input, *from, *to)?,
             table::Domain::Int(from, to) => {
                 let count = to.checked_sub(*from).and_then(|n| n.checked_add(1)).unwrap_or(0);
                 if !(2..=MAX_LEVELS as i64).contains(&count) || from.unsigned_abs().max(to.unsigned_abs()) > 1 << 24 {
                     let message = format!("an integer input spans 2 to {MAX_LEVELS} values of at most 2^24");
-                    return Err(Diagnostic::error(codes::DOMAIN, message).at(span, "in this domain"));
+                    return Err(Diagnostic::error(codes::DOMAIN, message)
+                        .at(span, "in this domain")
+                        .help("from version 2 of the language on it has any range: write `language: 2`"));
                 }
                 Levels {
                     names: (*from..=*to).map(|i| i.to_string()).collect(),
                     codes: (*from..=*to).map(|i| i as f64).collect(),
                     kind: LevelKind::Int,
+                    classes: None,
                 }
             }
             table::Domain::Range(..) => return Ok(None),
         };
+        if levels.is_wide() {
+            self.wide.insert(self.sets.len(), input.name.value.clone());
+        }
         self.sets.push(levels);
         let set = SetId(self.sets.len() - 1);
         self.own_sets.insert(&input.name.value, set);

@@ -115,7 +115,7 @@ impl<'t> Lowering<'t> {
         let mut known = Vec::new();
         for argument in arguments {
             let parts = match self.term(argument, env, Expected::Anything)? {
-                Term::Number(number) => vec![number],
+                Term::Number(number) | Term::Whole(number) => vec![number],
                 Term::Vector(parts) => parts,
                 other @ (Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
                     return Err(self.no_number(&other, argument.span));
@@ -189,7 +189,7 @@ impl<'t> Lowering<'t> {
             Node::Unary(op, a) => f32::unary(op, self.closed(a)?),
             Node::Binary(op, a, b) => f32::binary(op, self.closed(a)?, self.closed(b)?),
             Node::Ternary(op, a, b, c) => f32::ternary(op, self.closed(a)?, self.closed(b)?, self.closed(c)?),
-            Node::Input(_) | Node::Result(_) | Node::Select(..) => return None,
+            Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => return None,
         })
     }
 

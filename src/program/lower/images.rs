@@ -48,6 +48,10 @@ impl<'t> Lowering<'t> {
             Some(from) => self.input_named(&from.value).ok_or_else(|| self.unknown_input(from, "unknown input"))?,
         };
         let to_set = self.input_sets[input.index()].ok_or_else(|| no_levels(name.span))?;
+        if self.is_wide(to_set) {
+            return Err(Diagnostic::error(codes::SYMMETRY, "integers of any range are not renamed")
+                .at(name.span, "more than 64 integers"));
+        }
         let Term::Level(from_set, term) = self.input_term(origin, env) else { return Err(no_levels(name.span)) };
         let mut renaming = Vec::new();
         for (index, level) in self.sets[from_set.0].names.iter().enumerate() {
@@ -137,7 +141,7 @@ impl<'t> Lowering<'t> {
                 Term::Bool(condition) => {
                     levels.push((input, self.truth_as_level(condition)));
                 }
-                Term::Vector(_) | Term::List(_) | Term::Record(_) => {
+                Term::Whole(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => {
                     return Err(Diagnostic::error(codes::SYMMETRY, "an input has a single value").at(span, "here"));
                 }
             }

@@ -10,7 +10,7 @@ use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::InputId;
-use crate::program::operators::Comparison;
+use crate::program::operators::{BinaryOp, Comparison};
 use crate::program::pool::{CondId, ExprId, LevelSet};
 use crate::table::expr::{Expr, ExprKind};
 use crate::text::closest::nearest;
@@ -41,18 +41,34 @@ impl Lowering<'_> {
     }
 
     pub(super) fn equality(&mut self, a: &Expr, b: &Expr, env: &Env) -> Result<CondId> {
-        // A bare level name or code takes its meaning from the other side.
+        // A bare level name or code takes its meaning from the other side, but integers of any range are no levels.
+        for (integer, constant) in [(a, b), (b, a)] {
+            if let Some(value) = constant.literal()
+                && integer.name().is_some_and(|name| self.has_meaning(name, env))
+                && let term = self.term(integer, env, Expected::Anything)?
+                && let Some((set, term)) = self.wide_of(&term)
+            {
+                return Ok(self.wide_comparison(Comparison::Equal, (set, &term), value, false));
+            }
+        }
         let swap = self.is_bare(a, env) && !self.is_bare(b, env);
         let (known, other) = if swap { (b, a) } else { (a, b) };
         let mut left = self.term(known, env, Expected::Anything)?;
         let right = match &left {
             Term::Level(set, _) => self.level_operand(*set, other, env)?,
-            Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
+            Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
                 self.term(other, env, Expected::Anything)?
             }
         };
         if let (Term::Number(_), Term::Level(set, _)) = (&left, &right) {
             left = self.level_operand(*set, known, env)?;
+        }
+        if let Some(condition) = self.wide_compared(Comparison::Equal, [&left, &right], a.span.to(b.span))? {
+            return Ok(condition);
+        }
+        let is_one_set = matches!((&left, &right), (Term::Level(a, _), Term::Level(b, _)) if a == b);
+        if !is_one_set && let Some([a, b]) = self.compared_wholes([&left, &right], a.span.to(b.span))? {
+            return Ok(self.comparison(Comparison::Equal, a, b));
         }
         match (&left, &right) {
             (Term::Number(a), Term::Number(b)) => Ok(self.comparison(Comparison::Equal, *a, *b)),
@@ -100,11 +116,23 @@ impl Lowering<'_> {
         let term = self.term(expr, env, Expected::Level(set))?;
         let error = match &term {
             Term::Level(found, level) if *found == set => return Ok(level.clone()),
+            Term::Level(found, _)
+                if self.is_integer(set) && self.is_integer(*found) && !self.is_wide(set) && !self.is_wide(*found) =>
+            {
+                let whole = self.whole_of(&term);
+                let Some(whole) = whole else {
+                    return Err(type_error(expr.span, &self.describe(&term), expected));
+                };
+                return self.level_of_whole(set, whole, expr.span);
+            }
             Term::Level(found, _) => {
                 let error = type_error(expr.span, &self.describe(&term), expected);
                 self.unlike(error, set, *found)
             }
-            Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
+            Term::Whole(whole) if self.is_integer(set) && !self.is_wide(set) => {
+                return self.level_of_whole(set, *whole, expr.span);
+            }
+            Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
                 type_error(expr.span, &self.describe(&term), expected)
             }
         };
@@ -126,6 +154,12 @@ impl Lowering<'_> {
         let (first, second) = if swap { (b, a) } else { (a, b) };
         let mut first_term = self.term(first, env, expected.clone())?;
         let second_expected = match (&first_term, expected) {
+            // An integer that is none of the levels is a whole number all the same.
+            (Term::Level(set, _), Expected::Anything)
+                if self.is_integer(*set) && second.literal().is_some_and(|n| !self.sets[set.0].codes.contains(&n)) =>
+            {
+                Expected::Anything
+            }
             (Term::Level(set, _), Expected::Anything) => Expected::Level(*set),
             (_, expected) => expected,
         };
@@ -208,8 +242,12 @@ impl Lowering<'_> {
         }
         let term = self.term(value, env, Expected::Anything)?;
         let (set, term) = match term {
+            Term::Level(set, term) if self.is_wide(set) => {
+                return self.wide_among((set, &term), levels).map(Term::Bool);
+            }
             Term::Level(set, term) => (set, term),
             Term::Bool(condition) => (SetId::BOOL, Arc::new(self.truth_as_level(condition))),
+            Term::Whole(expr) => return self.whole_among(expr, levels).map(Term::Bool),
             other @ (Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_)) => {
                 return Err(type_error(value.span, &self.describe(&other), "only discrete inputs have levels"));
             }
@@ -272,6 +310,9 @@ impl Lowering<'_> {
 
     /// The number that stands for a level, or its index.
     pub(super) fn level_number(&mut self, set: SetId, term: &LevelTerm, number: impl Fn(&Self, u8) -> f64) -> ExprId {
+        if let Some(spaced) = self.spaced(set, term, &number) {
+            return spaced;
+        }
         let last = self.sets[set.0].count() as u8 - 1;
         let value = number(self, last);
         let mut result = self.pool.number(value);
@@ -283,5 +324,42 @@ impl Lowering<'_> {
             self.note_level_choice(term, condition, result);
         }
         result
+    }
+
+    /// The same where the numbers of an input's levels are evenly spaced: computed from the index, if `f32` does so
+    /// exactly.
+    fn spaced(&mut self, set: SetId, term: &LevelTerm, number: &impl Fn(&Self, u8) -> f64) -> Option<ExprId> {
+        let (input, numbers): (InputId, Vec<f64>) = match term {
+            LevelTerm::Input(input) => {
+                (*input, (0..self.sets[set.0].count() as u8).map(|level| number(self, level)).collect())
+            }
+            LevelTerm::Map(inner, map) => {
+                let LevelTerm::Input(input) = **inner else { return None };
+                (input, map.iter().map(|level| number(self, *level)).collect())
+            }
+            LevelTerm::Const(_) | LevelTerm::If(..) => return None,
+        };
+        let [first, second, _, ..] = *numbers.as_slice() else { return None };
+        let step = second - first;
+        let exact = |index: usize, number: f64| {
+            let product = index as f32 * step as f32;
+            f64::from(product) == index as f64 * step
+                && f64::from(product + first as f32) == number
+                && first + index as f64 * step == number
+        };
+        if step == 0.0 || !numbers.iter().enumerate().all(|(index, number)| exact(index, *number)) {
+            return None;
+        }
+        let mut result = self.pool.index(input);
+        if step != 1.0 {
+            let step = self.pool.number(step);
+            result = self.pool.binary(BinaryOp::Multiply, result, step);
+        }
+        if first != 0.0 {
+            let op = if first < 0.0 { BinaryOp::Subtract } else { BinaryOp::Add };
+            let first = self.pool.number(first.abs());
+            result = self.pool.binary(op, result, first);
+        }
+        Some(result)
     }
 }

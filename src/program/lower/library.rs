@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::tables::Programs;
 use super::terms::Expected;
+use super::wide::{AllCuts, refined};
 use super::{Lowering, Result, built_in, claims, functions::Callee, keep, once, written};
 use crate::diag::{Diagnostic, Failure, Spanned, codes};
 use crate::program::domain::StateSpace;
@@ -36,7 +37,7 @@ fn own_functions(table: &Table, imported: &Imported) -> std::result::Result<Vec<
     let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
     let mut errors = Vec::new();
     // Declarations are judged once, with all inputs; without sound ones nothing else could be.
-    let mut all = Lowering::new(table, imported.programs.clone());
+    let mut all = Lowering::new(table, imported.programs.clone(), &AllCuts::new());
     let inputs: Vec<&table::Input> = table.inputs.iter().collect();
     all.declare(&inputs, &mut errors);
     all.declare_functions(&mut errors);
@@ -45,15 +46,27 @@ fn own_functions(table: &Table, imported: &Imported) -> std::result::Result<Vec<
     }
     let mut programs = Vec::new();
     for function in &table.functions {
-        programs.extend(one(table, function, imported, &mut errors));
+        let (program, found) = refined(|cuts| {
+            let (mut found, mut wanted) = (Vec::new(), AllCuts::new());
+            let program = one(table, function, imported, cuts, &mut wanted, &mut found);
+            ((program, found), wanted)
+        });
+        programs.extend(program);
+        errors.extend(found);
     }
     // A mistake in a name or helper that nothing uses is a mistake too.
-    for named in &table.names {
-        let _ = keep(all.term_of_name(&named.name.value), &mut errors);
-        if errors.last().is_some_and(|e| e.code == codes::TOO_DEEP) {
-            break;
+    errors.extend(refined(|cuts| {
+        let mut found = Vec::new();
+        let mut all = Lowering::new(table, imported.programs.clone(), cuts);
+        all.declare(&inputs, &mut found);
+        for named in &table.names {
+            let _ = keep(all.term_of_name(&named.name.value), &mut found);
+            if found.last().is_some_and(|e| e.code == codes::TOO_DEEP) {
+                break;
+            }
         }
-    }
+        (found, all.wanted)
+    }));
     let claims = claims::claims(table, imported.programs.clone(), &mut errors);
     if let Some(first) = programs.first_mut() {
         first.claims = claims;
@@ -93,7 +106,7 @@ pub(in crate::program) fn declarations(table: &Table) -> std::result::Result<(),
     let mut imported = Imported::default();
     check_imports(table, &mut imported)?;
     let mut errors = Vec::new();
-    let mut lowering = Lowering::new(table, imported.programs);
+    let mut lowering = Lowering::new(table, imported.programs, &AllCuts::new());
     lowering.declare(&[], &mut errors);
     if let Some(claim) = table.claims.first() {
         let error = Diagnostic::error(codes::FUNCTION_SHAPE, "claims stand in a table with cases or functions");
@@ -144,9 +157,11 @@ fn one(
     table: &Table,
     function: &table::Function,
     imported: &Imported,
+    cuts: &AllCuts,
+    wanted: &mut AllCuts,
     errors: &mut Vec<Diagnostic>,
 ) -> Option<Program> {
-    let mut lowering = Lowering::new(table, imported.programs.clone());
+    let mut lowering = Lowering::new(table, imported.programs.clone(), cuts);
     let mut inputs: Vec<&table::Input> = Vec::new();
     for name in &function.parameters {
         match table.inputs.iter().find(|input| input.name.value == name.value) {
@@ -185,11 +200,17 @@ fn one(
     // An exhibit states its accuracy for those who mend it; its sines are what they are.
     lowering.portable = function.accuracy.is_some() && table.exhibit.is_none();
     let states = keep(StateSpace::new(&lowering.inputs).map_err(|product| lowering.too_many_states(product)), errors)?;
-    keep(lowering.function(function, states), errors)
+    keep(lowering.function(function, states, wanted), errors)
 }
 
 impl<'t> Lowering<'t> {
-    fn function(mut self, function: &'t table::Function, states: StateSpace) -> Result<Program> {
+    fn function(mut self, function: &'t table::Function, states: StateSpace, wanted: &mut AllCuts) -> Result<Program> {
+        let program = self.function_program(function, states);
+        *wanted = std::mem::take(&mut self.wanted);
+        program
+    }
+
+    fn function_program(&mut self, function: &'t table::Function, states: StateSpace) -> Result<Program> {
         // Open as a call is, so that a function that leads back to itself is found here.
         let env = self.bind(function, &super::Env::default())?;
         let always = self.pool.always(true);
@@ -298,9 +319,9 @@ impl<'t> Lowering<'t> {
             hit_policy_span: function.name.span,
             fetched: self.fetched(),
             output: self.resolved(&self.output),
-            inputs: self.inputs,
+            inputs: std::mem::take(&mut self.inputs),
             states,
-            pool: self.pool,
+            pool: std::mem::take(&mut self.pool),
             rows,
             default,
             assumptions,
@@ -358,8 +379,7 @@ impl<'t> Lowering<'t> {
                 Callee::Function(function) => (&function.name, "a function"),
             };
             let checked = names::check_inner(&name.value, what, name.span).and_then(|()| {
-                let of_the_language = built_in::signatures().any(|function| function.name == name.value);
-                if of_the_language && built_in::since(&name.value) <= table.language.value {
+                if built_in::is_taken(&name.value, self.table.language.value) {
                     let message = format!("`{}` is a function of the language", name.value);
                     return Err(Diagnostic::error(codes::RESERVED_NAME, message).at(name.span, "choose another name"));
                 }

@@ -165,7 +165,12 @@ impl Lowering<'_> {
         self.scopes[env.scope].since(2, span, "`++`")?;
         let side = |me: &mut Self, expr: &Expr| match me.term(expr, env, expected.clone())? {
             Term::List(list) => Ok(list),
-            other @ (Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::Record(_)) => {
+            other @ (Term::Number(_)
+            | Term::Whole(_)
+            | Term::Vector(_)
+            | Term::Bool(_)
+            | Term::Level(..)
+            | Term::Record(_)) => {
                 let found = me.describe(&other);
                 Err(Diagnostic::error(codes::TYPE, format!("`++` joins lists, but this is {found}"))
                     .at(expr.span, format!("this is {found}"))
@@ -203,6 +208,9 @@ impl Lowering<'_> {
                 self.check_room(*span)?;
                 let mut own: Vec<Tied> = Vec::new();
                 self.tie(of, term.clone(), *span, "an item", &mut own)?;
+                for part in &own {
+                    self.check_item(of, part.value, *span)?;
+                }
                 let own: Vec<ExprId> = own.into_iter().map(|part| self.clamped(part)).collect();
                 Ok(self.with_first(&own, &rest))
             }
@@ -251,7 +259,12 @@ impl Lowering<'_> {
                 let [then, other] = [then, other].map(|part| self.one_more(part, known));
                 self.pool.select(condition, then, other)
             }
-            Node::Result(_) | Node::Input(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+            Node::Result(_)
+            | Node::Input(_)
+            | Node::Index(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..) => {
                 let one = self.pool.number(1.0);
                 self.pool.binary(BinaryOp::Add, length, one)
             }

@@ -60,6 +60,7 @@ pub(super) struct CallKey<'t> {
 #[derive(PartialEq, Eq, Hash)]
 enum TermKey {
     Number(ExprId),
+    Whole(ExprId),
     Vector(Vec<ExprId>),
     Bool(CondId),
     Level(SetId, usize),
@@ -90,6 +91,7 @@ impl TermKey {
     fn of(term: &Term) -> Self {
         match term {
             Term::Number(number) => TermKey::Number(*number),
+            Term::Whole(number) => TermKey::Whole(*number),
             Term::Vector(parts) => TermKey::Vector(parts.clone()),
             Term::Bool(condition) => TermKey::Bool(*condition),
             Term::Level(set, term) => TermKey::Level(*set, place(term)),

@@ -28,6 +28,8 @@ mod tables;
 mod terms;
 #[cfg(test)]
 mod tests;
+mod whole;
+mod wide;
 mod written;
 
 use std::collections::{HashMap, HashSet};
@@ -44,12 +46,16 @@ use memo::Memo;
 use scope::Env;
 use tables::Programs;
 use terms::Term;
+use wide::{AllCuts, refined};
 
 pub use built_in::{Signature, signatures};
 pub use levels::LevelTerm;
 pub(super) use library::{declarations, functions, no_function};
 
 type Result<T> = std::result::Result<T, Diagnostic>;
+
+/// The version of the language from which on integers are numbers.
+const SINCE: u32 = 2;
 
 /// Number of a level set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -97,6 +103,11 @@ struct Lowering<'t> {
     /// True if the inputs are those of a function, some of those of the table.
     of_function: bool,
     case_index: HashMap<u32, usize>,
+    /// The names of inputs of any integers, by their sets.
+    wide: HashMap<usize, String>,
+    /// The cuts of these, and those that were missing.
+    cuts: AllCuts,
+    wanted: AllCuts,
     output: Rc<table::Output<SetId>>,
 }
 
@@ -107,30 +118,35 @@ pub(super) fn program(table: &Table) -> std::result::Result<Program, Failure> {
 
 /// Checks a table, with the tables that were checked before.
 fn program_with(table: &Table, imported: &mut Imported) -> std::result::Result<Program, Failure> {
-    let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
     library::check_imports(table, imported)?;
+    refined(|cuts| lowered(table, &imported.programs, cuts))
+}
+
+/// Checks a table with integers cut in some way, and returns the cuts that were missing.
+fn lowered(table: &Table, programs: &Programs, cuts: &AllCuts) -> (std::result::Result<Program, Failure>, AllCuts) {
+    let fail = |diagnostics| Failure { source: table.source.clone(), diagnostics };
     let mut errors = Vec::new();
-    let mut lowering = Lowering::new(table, imported.programs.clone());
+    let mut lowering = Lowering::new(table, programs.clone(), cuts);
     // Without sound declarations nothing that follows could be judged.
     let inputs: Vec<&table::Input> = table.inputs.iter().collect();
     lowering.declare(&inputs, &mut errors);
     lowering.declare_functions(&mut errors);
     if !errors.is_empty() {
-        return Err(fail(errors));
+        return (Err(fail(errors)), AllCuts::new());
     }
     let states = match StateSpace::new(&lowering.inputs) {
         Ok(states) => states,
-        Err(product) => return Err(fail(vec![lowering.too_many_states(product)])),
+        Err(product) => return (Err(fail(vec![lowering.too_many_states(product)])), AllCuts::new()),
     };
-    let program = lowering.finish(states, &mut errors);
+    let (program, wanted) = lowering.finish(states, &mut errors);
     match program {
-        Some(program) if errors.is_empty() => Ok(program),
-        _ => Err(fail(errors)),
+        Some(program) if errors.is_empty() => (Ok(program), wanted),
+        _ => (Err(fail(errors)), wanted),
     }
 }
 
 impl<'t> Lowering<'t> {
-    fn new(table: &'t Table, programs: Programs) -> Self {
+    fn new(table: &'t Table, programs: Programs, cuts: &AllCuts) -> Self {
         let mut lowering = Lowering {
             table,
             pool: Pool::default(),
@@ -138,6 +154,7 @@ impl<'t> Lowering<'t> {
                 names: vec!["false".to_owned(), "true".to_owned()],
                 codes: vec![0.0, 1.0],
                 kind: LevelKind::Bool,
+                classes: None,
             }],
             input_sets: Vec::new(),
             inputs: Vec::new(),
@@ -158,6 +175,9 @@ impl<'t> Lowering<'t> {
             foreign_sets: HashMap::new(),
             of_function: false,
             case_index: HashMap::new(),
+            wide: HashMap::new(),
+            cuts: cuts.clone(),
+            wanted: AllCuts::new(),
             output: Rc::new(table::Output::Number(None)),
         };
         lowering.open_scope(table);
@@ -193,7 +213,7 @@ impl<'t> Lowering<'t> {
         fetched.fold(InputSet::default(), |set, (i, _)| set.or(InputSet::one(InputId::new(i))))
     }
 
-    fn finish(mut self, states: StateSpace, errors: &mut Vec<Diagnostic>) -> Option<Program> {
+    fn finish(mut self, states: StateSpace, errors: &mut Vec<Diagnostic>) -> (Option<Program>, AllCuts) {
         let table = self.table;
         for named in &table.names {
             // Lowered where used, but a mistake in an unused one is a mistake too.
@@ -213,8 +233,15 @@ impl<'t> Lowering<'t> {
         if self.collects() {
             let _ = keep(self.collect(&mut rows), errors);
         }
+        let is_sound = errors.is_empty();
+        if is_sound {
+            self.check_rows(&rows, errors);
+        }
         let env = Env::default();
         let default = keep(self.default_term(&env).and_then(|t| self.result(t, table.default.span)), errors);
+        if is_sound && let Some(default) = &default {
+            self.check_default(&rows, default, errors);
+        }
         let assumptions = table.assumptions.iter().filter_map(|assumption| {
             keep(names::check_inner(&assumption.name.value, "an assumption", assumption.name.span), errors)?;
             let condition = keep(self.condition(&assumption.condition, &env), errors)?;
@@ -240,7 +267,9 @@ impl<'t> Lowering<'t> {
         let unused_fetches = self.unused_fetches();
         let fetched = self.fetched();
         let choices = self.choices();
-        Some(Program {
+        let wanted = std::mem::take(&mut self.wanted);
+        let Some(default) = default else { return (None, wanted) };
+        let program = Program {
             source: table.source.clone(),
             imported: self.imported(),
             name: table.name.value.clone(),
@@ -254,7 +283,7 @@ impl<'t> Lowering<'t> {
             states,
             pool: self.pool,
             rows,
-            default: default?,
+            default,
             assumptions,
             draw,
             symmetries,
@@ -266,7 +295,8 @@ impl<'t> Lowering<'t> {
             exhibit: table.exhibit.clone(),
             written: Written { choices, unused_fetches, ..written::written(table) },
             decided: Vec::new(),
-        })
+        };
+        (Some(program), wanted)
     }
 }
 

@@ -120,7 +120,7 @@ impl<'t> Lowering<'t> {
                         Some(form) => Source::Number(form),
                     }
                 }
-                Term::Vector(_) | Term::List(_) | Term::Record(_) => return unsuited(self, input),
+                Term::Whole(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => return unsuited(self, input),
             });
         }
         Ok(all)

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use super::lists::List;
 use super::terms::{Expected, Term};
+use super::whole::whole_components;
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program;
@@ -13,6 +14,9 @@ use crate::program::domain::LevelKind;
 use crate::program::operators::TernaryOp;
 use crate::program::pool::{ExprId, Node};
 use crate::table::Output;
+
+/// The largest whole number of a function, whose range is not declared.
+const MAX_WHOLE: i32 = 1 << 24;
 
 /// A component of a value that is tied to the output, and the bounds that it is still to be clamped to.
 pub(super) struct Part {
@@ -37,6 +41,10 @@ impl Lowering<'_> {
         let table = self.table;
         self.output = Rc::new(table.output.value.try_map(&mut |name| self.find_named_set(name))?);
         self.check_collected()?;
+        let mut ranges = Vec::new();
+        whole_components(&self.output, &mut ranges);
+        let real = |(from, to): (i32, i32)| (f64::from(from), f64::from(to));
+        self.pool.declare_results(ranges.into_iter().map(|range| range.map(real)).collect());
         self.check_columns(table.output.span)
     }
 
@@ -49,6 +57,12 @@ impl Lowering<'_> {
             )
             .at(name.span, "expected named levels or integers")
             .help("declare levels for the output under `levels`, for instance \"answer\": {\"no\": 0, \"yes\": 1}")),
+            set if self.is_wide(set) => Err(Diagnostic::error(
+                codes::DOMAIN,
+                format!("`{}` has more integers than a result can be one of", name.value),
+            )
+            .at(name.span, "more than 64")
+            .help("declare the result as `Int(from: ..., to: ...)`")),
             set => Ok(set),
         }
     }
@@ -64,6 +78,10 @@ impl Lowering<'_> {
         let version_2 = |what: &str| self.table.since(2, span, &format!("a function that returns {what}"));
         Ok(match term {
             Term::Number(_) => Output::Number(None),
+            Term::Whole(_) => {
+                version_2("a whole number")?;
+                Output::Int(-MAX_WHOLE, MAX_WHOLE)
+            }
             Term::Vector(parts) => Output::Vector(parts.len(), None),
             Term::Record(parts) => {
                 let field = |(name, part): &(String, Term)| Ok((name.clone(), self.inferred(part, span)?));
@@ -146,9 +164,12 @@ impl Lowering<'_> {
             (Output::Int(from, to), Term::Number(value)) => {
                 parts.push(free(self.whole_result(value, (*from, *to), span, what)?))
             }
-            (Output::Int(from, to), Term::Level(set, level)) if self.sets[set.0].kind == LevelKind::Int => {
+            // The range of what is calculated is judged when rows are complete, where they are taken.
+            (Output::Int(..), Term::Whole(value)) => parts.push(free(value)),
+            (Output::Int(..), Term::Level(set, _)) if self.is_wide(set) => return Err(self.too_wide(set, span)),
+            (Output::Int(..), Term::Level(set, level)) if self.sets[set.0].kind == LevelKind::Int => {
                 let value = self.level_number(set, &level, |me, level| me.sets[set.0].codes[usize::from(level)]);
-                parts.push(free(self.whole_result(value, (*from, *to), span, what)?));
+                parts.push(free(value));
             }
             (Output::Enumeration(of), Term::Level(set, term)) if set == *of => {
                 parts.push(free(self.level_number(set, &term, |_, level| f64::from(level))));
@@ -198,6 +219,7 @@ impl Lowering<'_> {
                 Node::Select(_, then, other) => open.extend([then, other]),
                 Node::Const(_)
                 | Node::Input(_)
+                | Node::Index(_)
                 | Node::Result(_)
                 | Node::Unary(..)
                 | Node::Binary(..)
@@ -233,7 +255,8 @@ impl Lowering<'_> {
     /// The value that consists of some components.
     pub(super) fn term_of(&mut self, output: &Output<SetId>, components: &[ExprId]) -> Term {
         match output {
-            Output::Number(_) | Output::Int(..) => Term::Number(components[0]),
+            Output::Number(_) => Term::Number(components[0]),
+            Output::Int(..) => Term::Whole(components[0]),
             Output::Vector(..) => Term::Vector(components.to_vec()),
             Output::Bool => Term::Bool(self.is_more(components[0], 0.0, &mut HashMap::new())),
             Output::Enumeration(set) => {

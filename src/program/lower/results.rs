@@ -103,7 +103,9 @@ impl Lowering<'_> {
                         .at(expr.span, format!("at most {MAX_TABULATED} are mapped one by one")));
                 }
                 let table = self.tabulated(from..=to, &whole, expr, env, |me, env| {
-                    let value = me.numeric(expr, env)?;
+                    let term = me.term(expr, env, Expected::Anything)?;
+                    let value = if let Term::Number(value) = term { Some(value) } else { me.whole_of(&term) };
+                    let value = value.ok_or_else(|| me.no_number(&term, expr.span))?;
                     match me.pool.constant(value) {
                         Some(new) if new.fract() == 0.0 && (from as f64..=to as f64).contains(&new) => Ok(new as i64),
                         Some(new) => {
@@ -227,7 +229,12 @@ impl Lowering<'_> {
                 let [then, other] = [then, other].map(|part| self.renumbered(part, table, known));
                 self.pool.select(condition, then, other)
             }
-            Node::Result(_) | Node::Input(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+            Node::Result(_)
+            | Node::Input(_)
+            | Node::Index(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..) => {
                 let changed = table.new.iter().zip(table.first..).filter(|(new, old)| *new != old);
                 changed.fold(expr, |rest, (new, old)| {
                     let (old, new) = (self.pool.number(old as f64), self.pool.number(*new as f64));
@@ -253,6 +260,7 @@ impl Lowering<'_> {
             Node::Const(_)
             | Node::Result(_)
             | Node::Input(_)
+            | Node::Index(_)
             | Node::Unary(..)
             | Node::Binary(..)
             | Node::Ternary(..) => {
@@ -280,7 +288,12 @@ impl Lowering<'_> {
                 let [then, other] = [then, other].map(|part| self.level_with_index(set, part, known));
                 LevelTerm::If(condition, then, other)
             }
-            Node::Result(_) | Node::Input(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+            Node::Result(_)
+            | Node::Input(_)
+            | Node::Index(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..) => {
                 let last = self.sets[set.0].count() as u8 - 1;
                 (0..last).rev().fold(LevelTerm::Const(last), |rest, level| {
                     let [own, rest] = [LevelTerm::Const(level), rest].map(|term| self.memo.level(term));

@@ -223,7 +223,7 @@ impl Lowering<'_> {
     /// Remembers a name for generated code.
     pub(super) fn label(&mut self, term: &Term, name: &str) {
         match term {
-            Term::Number(expr) => self.pool.set_label(*expr, name),
+            Term::Number(expr) | Term::Whole(expr) => self.pool.set_label(*expr, name),
             Term::Record(parts) => {
                 for (part, term) in parts {
                     self.label(term, &format!("{name}_{part}"));

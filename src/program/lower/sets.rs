@@ -7,7 +7,8 @@ use super::fetches::Fetch;
 use super::{Lowering, Result, SetId, Term};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::LevelTerm;
-use crate::program::domain::{LevelKind, Levels};
+use crate::program::classes::Classes;
+use crate::program::domain::{LevelKind, Levels, MAX_LEVELS};
 use crate::table;
 use crate::text::closest::nearest;
 
@@ -68,10 +69,16 @@ impl<'t> Lowering<'t> {
             (None, Some(table::Domain::Levels(levels))) => self.level_set(levels, at)?,
             (None, Some(table::Domain::LevelsOf(of))) => return self.set_in(scope, &of.value, at),
             (None, Some(table::Domain::Bool)) => return Ok(SetId::BOOL),
+            (None, Some(table::Domain::Int(from, to))) if *to - *from >= MAX_LEVELS as i64 => {
+                return Err(Diagnostic::error(codes::DOMAIN, format!("`{name}` has integers of any range, no levels"))
+                    .at(at, "more than 64 integers")
+                    .help("declare the input here, `Int(from: ..., to: ...)`: integers are the same in every table"));
+            }
             (None, Some(table::Domain::Int(from, to))) => Levels {
                 names: (*from..=*to).map(|i| i.to_string()).collect(),
                 codes: (*from..=*to).map(|i| i as f64).collect(),
                 kind: LevelKind::Int,
+                classes: (table.language.value >= SINCE).then(|| Classes::each(*from, *to)),
             },
             (None, Some(table::Domain::Range(..)) | None) => {
                 let known = table.levels.iter().map(|(set, _)| &set.value);

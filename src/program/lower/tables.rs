@@ -56,6 +56,13 @@ impl Meanings for Given<'_, '_> {
         }
     }
 
+    fn index(&mut self, input: InputId) -> ExprId {
+        match &self.meanings[input.index()] {
+            Meaning::Level(set, term) => self.lowering.level_number(*set, term, |_, level| f64::from(level)),
+            Meaning::Number(_) => unreachable!("a discrete input is no number"),
+        }
+    }
+
     fn level(&mut self, input: InputId, levels: LevelSet) -> CondId {
         match &self.meanings[input.index()] {
             Meaning::Level(set, term) => self.lowering.level_in(*set, term, levels),
@@ -161,7 +168,8 @@ impl<'t> Lowering<'t> {
     /// The argument for an input, as it is written.
     fn argument(&mut self, called: Called<'t>, input: &Input, value: &Expr, env: &Env) -> Result<Term> {
         let named = matches!(&input.domain, Domain::Discrete(levels) if levels.kind != LevelKind::Bool);
-        if !named {
+        // Of integers of any range no level is known by the number.
+        if !named || matches!(&input.domain, Domain::Discrete(levels) if levels.is_wide()) {
             return self.term(value, env, Expected::Anything);
         }
         let set = self.set_in(called.scope, &input.name, value.span)?;
@@ -192,6 +200,10 @@ impl<'t> Lowering<'t> {
             (Domain::Discrete(levels), _) if levels.kind == LevelKind::Bool => {
                 Err(type_error(at, &self.describe(&term), &format!("`{name}` of `{table}` is a condition")))
             }
+            (Domain::Discrete(levels), _) if levels.is_wide() => {
+                let (set, level) = self.class_in(levels, &term, at)?;
+                Ok((Meaning::Level(set, level.clone()), Term::Level(set, level)))
+            }
             (Domain::Discrete(levels), _) => {
                 let set = self.set_in(called.scope, name, at)?;
                 let level = match &term {
@@ -207,10 +219,16 @@ impl<'t> Lowering<'t> {
                         self.memo.level(LevelTerm::Map(level.clone(), map.into()))
                     }
                     Term::Level(own, _) => return Err(self.unknown_to(called, input, *own, set, at)),
+                    Term::Whole(number) if levels.kind == LevelKind::Int => self.level_of_whole(set, *number, at)?,
                     Term::Number(number) if levels.kind == LevelKind::Int => {
                         self.whole_as_level(set, *number, at, &mut HashMap::new())?
                     }
-                    Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
+                    Term::Number(_)
+                    | Term::Whole(_)
+                    | Term::Vector(_)
+                    | Term::Bool(_)
+                    | Term::List(_)
+                    | Term::Record(_) => {
                         let expected = format!("`{name}` of `{table}` is {}", self.all_levels(set));
                         return Err(type_error(at, &self.describe(&term), &expected));
                     }
@@ -245,7 +263,12 @@ impl<'t> Lowering<'t> {
                 let other = self.whole_as_level(set, other, at, known)?;
                 LevelTerm::If(condition, then, other)
             }
-            Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
+            Node::Input(_)
+            | Node::Index(_)
+            | Node::Result(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..) => {
                 return Err(type_error(at, "a real number", &format!("expected {}", self.all_levels(set)))
                     .help("whole numbers, `Int` inputs and choices between them are levels of an `Int`"));
             }

@@ -32,6 +32,8 @@ const MAX_OPEN: u32 = 100;
 #[derive(Debug, Clone)]
 pub(super) enum Term {
     Number(ExprId),
+    /// A whole number, which is no real one before it is made one.
+    Whole(ExprId),
     Vector(Vec<ExprId>),
     Bool(CondId),
     Level(SetId, Arc<LevelTerm>),
@@ -61,7 +63,7 @@ impl Term {
     /// The expressions and conditions that it consists of; levels have none.
     pub(super) fn parts(&self, exprs: &mut Vec<ExprId>, conditions: &mut Vec<CondId>) {
         match self {
-            Term::Number(expr) => exprs.push(*expr),
+            Term::Number(expr) | Term::Whole(expr) => exprs.push(*expr),
             Term::Vector(parts) => exprs.extend(parts),
             Term::List(list) => list.parts().iter().for_each(|part| part.parts(exprs, conditions)),
             Term::Bool(condition) => conditions.push(*condition),
@@ -207,9 +209,12 @@ impl Lowering<'_> {
     pub(super) fn condition(&mut self, expr: &Expr, env: &Env) -> Result<CondId> {
         match self.term(expr, env, Expected::Anything)? {
             Term::Bool(condition) => Ok(condition),
-            other @ (Term::Number(_) | Term::Vector(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
-                Err(type_error(expr.span, &self.describe(&other), "expected a condition"))
-            }
+            other @ (Term::Number(_)
+            | Term::Whole(_)
+            | Term::Vector(_)
+            | Term::Level(..)
+            | Term::List(_)
+            | Term::Record(_)) => Err(type_error(expr.span, &self.describe(&other), "expected a condition")),
         }
     }
 
@@ -217,16 +222,22 @@ impl Lowering<'_> {
     pub(super) fn numeric(&mut self, expr: &Expr, env: &Env) -> Result<ExprId> {
         match self.term(expr, env, Expected::Anything)? {
             Term::Number(number) => Ok(number),
-            other @ (Term::Vector(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
-                Err(self.no_number(&other, expr.span))
-            }
+            other @ (Term::Whole(_)
+            | Term::Vector(_)
+            | Term::Bool(_)
+            | Term::Level(..)
+            | Term::List(_)
+            | Term::Record(_)) => Err(self.no_number(&other, expr.span)),
         }
     }
 
     pub(super) fn no_number(&self, term: &Term, span: Span) -> Diagnostic {
         let error = type_error(span, &self.describe(term), "expected a number");
         match term {
-            Term::Level(..) | Term::Bool(_) => error.help("`f32(...)` gives the number that stands for it"),
+            Term::Level(..) | Term::Bool(_) => {
+                self.later(term, error.help("`f32(...)` gives the number that stands for it"))
+            }
+            Term::Whole(_) => error.help("`f32(...)` makes a number of a whole one"),
             Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => error,
         }
     }
@@ -234,6 +245,7 @@ impl Lowering<'_> {
     pub(super) fn describe(&self, term: &Term) -> String {
         match term {
             Term::Number(_) => "a number".to_owned(),
+            Term::Whole(_) => "a whole number".to_owned(),
             Term::Vector(parts) => format!("a vector of {}", parts.len()),
             Term::Bool(_) => "a condition".to_owned(),
             Term::Level(set, _) => format!("one of the levels {}", self.sets[set.0].names.join(", ")),
@@ -256,11 +268,10 @@ impl Lowering<'_> {
                 Ok(Term::Bool(if op == Op::Equal { equal } else { self.pool.not(equal) }))
             }
             Op::Less | Op::LessEqual | Op::Greater | Op::GreaterEqual => {
-                let (x, y) = (self.numeric(a, env)?, self.numeric(b, env)?);
                 let strict = matches!(op, Op::Less | Op::Greater);
                 let comparison = if strict { Comparison::Less } else { Comparison::LessEqual };
-                let (x, y) = if matches!(op, Op::Less | Op::LessEqual) { (x, y) } else { (y, x) };
-                Ok(Term::Bool(self.comparison(comparison, x, y)))
+                let sides = if matches!(op, Op::Less | Op::LessEqual) { [a, b] } else { [b, a] };
+                Ok(Term::Bool(self.compared(comparison, sides, span, env)?))
             }
             Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder | Op::Join => {
                 let Some(op) = BinaryOp::of_symbol(op) else {
@@ -313,6 +324,11 @@ impl Lowering<'_> {
         let zip = |me: &mut Self, a: &[ExprId], b: &[ExprId]| -> Vec<ExprId> {
             a.iter().zip(b).map(|(a, b)| me.pool.select(condition, *a, *b)).collect()
         };
+        // Integers that are of one set stay levels.
+        let is_one_set = matches!((&then, &other), (Term::Level(a, _), Term::Level(b, _)) if a == b);
+        if !is_one_set && let Some([a, b]) = self.wholes([&then, &other], span)? {
+            return Ok(Term::Whole(self.pool.select(condition, a, b)));
+        }
         match (&then, &other) {
             (Term::Number(a), Term::Number(b)) => Ok(Term::Number(self.pool.select(condition, *a, *b))),
             (Term::Bool(a), Term::Bool(b)) => Ok(Term::Bool(self.pool.cond_if(condition, *a, *b))),

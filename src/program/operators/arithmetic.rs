@@ -22,6 +22,18 @@ fn is_nan<T: PartialOrd>(a: &T) -> bool {
     a != a
 }
 
+/// The quotient of whole numbers without its fraction; by zero, the dividend, as in WGSL.
+#[inline]
+pub(super) fn whole_quotient(a: f64, b: f64) -> f64 {
+    if b == 0.0 { a } else { (a / b).trunc() }
+}
+
+/// The rest that the quotient of whole numbers leaves, with the sign of the dividend; by zero, nothing.
+#[inline]
+pub(super) fn whole_remainder(a: f64, b: f64) -> f64 {
+    if b == 0.0 { 0.0 } else { a % b }
+}
+
 /// -1, 0 or 1; NaN of NaN.
 #[inline]
 pub(super) fn sign(a: f64) -> f64 {

@@ -77,6 +77,10 @@ fn hull(corners: [f64; 4]) -> Bounded {
     finite(lo, corners.into_iter().fold(f64::NEG_INFINITY, f64::max))
 }
 
+fn are_whole((lo, hi): Bounds) -> bool {
+    lo.fract() == 0.0 && hi.fract() == 0.0
+}
+
 fn has_zero((lo, hi): Bounds) -> bool {
     lo <= 0.0 && hi >= 0.0
 }
@@ -104,6 +108,22 @@ pub(super) fn remainder(a: Bounds, b: Bounds) -> Bounded {
         return DIVIDES_BY_ZERO;
     }
     let most = a.0.abs().max(a.1.abs()).min(b.0.abs().max(b.1.abs()));
+    ((if a.0 < 0.0 { -most } else { 0.0 }, if a.1 > 0.0 { most } else { 0.0 }), None)
+}
+
+/// Whole numbers are 1 apart at least, so a quotient is no larger than the dividend; by zero it is the dividend.
+pub(super) fn whole_quotient(a: Bounds, b: Bounds) -> Bounded {
+    if has_zero(b) {
+        let most = a.0.abs().max(a.1.abs());
+        return (if are_whole(b) { (-most, most) } else { ANY }, None);
+    }
+    let (bounds, what) = hull([a.0 / b.0, a.0 / b.1, a.1 / b.0, a.1 / b.1]);
+    ((bounds.0.trunc(), bounds.1.trunc()), what)
+}
+
+pub(super) fn whole_remainder(a: Bounds, b: Bounds) -> Bounded {
+    let below = if are_whole(a) && are_whole(b) { 1.0 } else { 0.0 };
+    let most = a.0.abs().max(a.1.abs()).min((b.0.abs().max(b.1.abs()) - below).max(0.0));
     ((if a.0 < 0.0 { -most } else { 0.0 }, if a.1 > 0.0 { most } else { 0.0 }), None)
 }
 

@@ -135,7 +135,7 @@ mod tests {
             assert!(names.insert(name) && !op.doc().is_empty(), "{name}");
             assert_eq!(Operator::named(name), Some(op));
         }
-        assert_eq!(Operator::all().count() - names.len(), 6, "negation and five infix operators");
+        assert_eq!(Operator::all().count() - names.len(), 8, "negation and seven infix operators");
     }
 
     /// An operand: an interval, and points of it.

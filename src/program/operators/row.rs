@@ -171,6 +171,8 @@ pub struct Binary {
     pub is_plain: bool,
     /// Has results that no `f32` can hold already for moderate operands.
     pub is_exponential: bool,
+    /// Has a whole result for whole operands.
+    pub keeps_whole: bool,
     /// Its form in generated code.
     pub spellings: Spellings,
 }
@@ -206,8 +208,8 @@ impl Binary {
         image: fn(Bounds, Bounds) -> Bounded,
         spellings: Spellings,
     ) -> Self {
-        let (is_plain, is_exponential) = (false, false);
-        Self { notation, doc, wide, narrow: None, image, algebra, is_plain, is_exponential, spellings }
+        let (is_plain, is_exponential, keeps_whole) = (false, false, false);
+        Self { notation, doc, wide, narrow: None, image, algebra, is_plain, is_exponential, keeps_whole, spellings }
     }
 
     pub(super) const fn narrow(self, narrow: fn(f32, f32) -> f32) -> Self {
@@ -220,6 +222,10 @@ impl Binary {
 
     pub(super) const fn exponential(self) -> Self {
         Self { is_exponential: true, ..self }
+    }
+
+    pub(super) const fn whole(self) -> Self {
+        Self { keeps_whole: true, ..self }
     }
 
     pub(super) const fn in_glsl(self, glsl: Spelling) -> Self {

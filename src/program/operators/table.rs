@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::arithmetic::{larger, portable_sincos, sign, smaller, smoothstep};
+use super::arithmetic::{larger, portable_sincos, sign, smaller, smoothstep, whole_quotient, whole_remainder};
 use super::images::{self, Image};
 use super::row::{Ascending, Binary, BinaryAlgebra, Operands, Ternary, TernaryAlgebra, Unary, UnaryAlgebra};
 use super::{Notation, Spelling, Spellings};
@@ -110,17 +110,22 @@ operators! {
 operators! {
     /// Operations on two numbers.
     BinaryOp, Binary:
-    Add = Binary::symbol(ast::BinaryOp::Add, |a, b| a + b, Two::Sum, images::sum).narrow(|a, b| a + b).plain();
-    Subtract = Binary::symbol(ast::BinaryOp::Subtract, |a, b| a - b, Two::Difference, images::difference).narrow(|a, b| a - b).plain();
-    Multiply = Binary::symbol(ast::BinaryOp::Multiply, |a, b| a * b, Two::Product, images::product).narrow(|a, b| a * b).plain();
+    Add = Binary::symbol(ast::BinaryOp::Add, |a, b| a + b, Two::Sum, images::sum).narrow(|a, b| a + b).plain().whole();
+    Subtract = Binary::symbol(ast::BinaryOp::Subtract, |a, b| a - b, Two::Difference, images::difference).narrow(|a, b| a - b).plain().whole();
+    Multiply = Binary::symbol(ast::BinaryOp::Multiply, |a, b| a * b, Two::Product, images::product).narrow(|a, b| a * b).plain().whole();
     Divide = Binary::symbol(ast::BinaryOp::Divide, |a, b| a / b, Two::Quotient, images::quotient).narrow(|a, b| a / b);
     Remainder = Binary::symbol(ast::BinaryOp::Remainder, |a, b| a % b, Two::Opaque, images::remainder).in_glsl(Own("remainder"));
+    // Of whole numbers, which code computes as such. No table divides one by zero.
+    WholeQuotient = Binary::symbol(ast::BinaryOp::Divide, whole_quotient, Two::Opaque, images::whole_quotient)
+        .plain().whole();
+    WholeRemainder = Binary::symbol(ast::BinaryOp::Remainder, whole_remainder, Two::Opaque, images::whole_remainder)
+        .plain().whole();
     Atan2 = Binary::function("atan2", "a, b", "angle of the point (b, a)", libm::atan2, Two::Opaque, images::angle, Wide("atan2"))
         .in_glsl(Call("atan"));
     Max = Binary::function("max", "a, b", "the larger", larger, Two::Maximum, images::maximum, Call("f32::max"))
-        .narrow(larger).plain();
+        .narrow(larger).plain().whole();
     Min = Binary::function("min", "a, b", "the smaller", smaller, Two::Minimum, images::minimum, Call("f32::min"))
-        .narrow(smaller).plain();
+        .narrow(smaller).plain().whole();
     Pow = Binary::function("pow", "a, b", "a^b", libm::pow, Two::Opaque, images::power, Wide("powf")).exponential();
     Step = Binary::function("step", "e, a", "1 if e <= a, else 0", |e, a| f64::from(u8::from(e <= a)), Two::Opaque, images::step,
         Text("(if {a} <= {b} { 1.0 } else { 0.0 })")).plain();

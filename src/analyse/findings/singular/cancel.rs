@@ -86,6 +86,7 @@ fn quotients(pool: &Pool, expr: ExprId, factor: f64, divisor: Option<ExprId>, ou
         },
         Node::Const(_)
         | Node::Input(_)
+        | Node::Index(_)
         | Node::Result(_)
         | Node::Unary(..)
         | Node::Binary(..)

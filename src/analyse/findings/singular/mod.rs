@@ -306,7 +306,9 @@ fn overflows(program: &Program) -> Vec<Diagnostic> {
     let risky = |expr: &ExprId| match program.pool.node(*expr) {
         Node::Unary(op, _) => op.row().is_exponential,
         Node::Binary(op, ..) => op.row().is_exponential,
-        Node::Const(_) | Node::Input(_) | Node::Result(_) | Node::Ternary(..) | Node::Select(..) => false,
+        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Ternary(..) | Node::Select(..) => {
+            false
+        }
     };
     if !expressions(program).iter().any(risky) {
         return Vec::new();

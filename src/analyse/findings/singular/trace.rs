@@ -108,7 +108,7 @@ impl<'p, T: Real> Trace<'p, T> {
         }
         let value = match self.program.pool.node(expr) {
             Node::Const(number) => T::from_f64(number.get()),
-            Node::Input(input) => self.input(input),
+            Node::Input(input) | Node::Index(input) => self.input(input),
             // Occurs in the result map of a symmetry only.
             Node::Result(_) => T::from_f64(f64::NAN),
             Node::Unary(op, a) => T::unary(op, self.number(a)),

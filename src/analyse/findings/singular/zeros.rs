@@ -52,6 +52,7 @@ fn collect(program: &Program, normaliser: &mut Normaliser, expr: ExprId, all: &m
             collect(program, normaliser, b, all);
         }
         Node::Input(_)
+        | Node::Index(_)
         | Node::Result(_)
         | Node::Unary(..)
         | Node::Binary(..)
