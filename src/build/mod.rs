@@ -235,8 +235,7 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
             let contents = emit::emit_all(std::slice::from_ref(&proved), *target, &siblings)?;
             built.files.push(Artifact { path: path(target.extension()), contents });
         }
-        if shape.reads_buffer() {
-            let words = emit::lookup_words(proved.plan());
+        if let Some(words) = emit::lookup_words(proved.plan()) {
             let contents = words.iter().flat_map(|word| word.to_le_bytes()).collect();
             built.files.push(Artifact { path: path("lookup.bin"), contents });
         }

@@ -272,7 +272,7 @@ impl Writer<'_, '_> {
         let words = lookup::words(self.plan, self.names.default);
         let per_word = lookup::entries_per_word(self.plan);
         let bits = 32 / per_word;
-        if !self.plan.shape.reads_buffer() {
+        if !self.plan.reads_lookup() {
             self.text.comment("The lookup, packed; the commonest word stands last.");
             self.lookup_constants("lookup", 0, &words);
         } else {
@@ -448,7 +448,7 @@ fn uses(plan: &Plan<'_>, operation: impl Fn(Node) -> bool) -> bool {
     plan.pool.nodes().any(operation)
 }
 
-/// The words that a plan's lookup consists of; empty for plans without one.
-pub fn lookup_words(plan: &Plan<'_>) -> Vec<u32> {
-    lookup::words(plan, Names::new(plan.program).default)
+/// The words of the buffer that a plan reads its lookup from; `None` for a plan that reads no buffer.
+pub fn lookup_words(plan: &Plan<'_>) -> Option<Vec<u32>> {
+    plan.reads_lookup().then(|| lookup::words(plan, Names::new(plan.program).default))
 }

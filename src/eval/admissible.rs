@@ -30,9 +30,12 @@ use std::cell::{Cell, RefCell};
 
 use super::freely::Free;
 use super::interval::Interval;
+use super::walk::{Taken, Walk};
 use super::{Interpreter, NeedsFetch};
 use crate::program::operators::Image;
-use crate::program::{BinaryOp, Cond, CondId, ExprId, InputId, InputSet, Node, Program, TernaryOp, UnaryOp, Value};
+use crate::program::{
+    BinaryOp, Comparison, CondId, ExprId, InputId, InputSet, LevelSet, Node, Program, TernaryOp, UnaryOp, Value,
+};
 
 /// Most evaluations that are followed at one point.
 const MAX_FORKS: usize = 512;
@@ -94,13 +97,13 @@ impl Admissible {
 
 /// A decision of an evaluation that could go either way.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Choice {
+pub(super) enum Choice {
     Comparison(CondId),
     Jump(ExprId),
 }
 
 /// Why an evaluation could not go on.
-enum Stop {
+pub(super) enum Stop {
     Open(Choice),
     Missing,
 }
@@ -214,23 +217,9 @@ impl<'p> IntervalInterpreter<'p> {
         }
     }
 
-    /// Follows [`Interpreter::evaluate`] under the choices made so far.
+    /// Evaluates the program under the choices made so far.
     fn evaluate(&self) -> Result<Possible, Stop> {
-        for (index, row) in self.program.rows.iter().enumerate() {
-            if !self.holds(row.guard)? {
-                continue;
-            }
-            for line in &row.lines {
-                if self.holds(line.condition)? {
-                    return self.possible(Some(index), &line.values);
-                }
-            }
-            return self.possible(Some(index), &self.program.default);
-        }
-        self.possible(None, &self.program.default)
-    }
-
-    fn possible(&self, row: Option<usize>, values: &[ExprId]) -> Result<Possible, Stop> {
+        let Taken { row, values, .. } = (&mut &*self).taken()?;
         let values =
             values.iter().map(|value| self.number(*value).map(|known| known.value)).collect::<Result<_, _>>()?;
         Ok(Possible { row, values, fetched: self.fetched.get() })
@@ -245,48 +234,6 @@ impl<'p> IntervalInterpreter<'p> {
     fn choice(&self, choice: Choice) -> Result<bool, Stop> {
         let made = self.choices.iter().find(|(made, _)| *made == choice);
         made.map(|(_, taken)| *taken).ok_or(Stop::Open(choice))
-    }
-
-    fn holds(&self, condition: CondId) -> Result<bool, Stop> {
-        match self.program.pool.cond(condition) {
-            Cond::Const(value) => Ok(*value),
-            Cond::Level(input, levels) => match self.point[input.index()] {
-                Some(Value::Level(level)) => {
-                    self.look_at(*input);
-                    Ok(levels.contains(level))
-                }
-                _ => Err(Stop::Missing),
-            },
-            Cond::Compare(op, a, b) => {
-                let (a, b) = (self.number(*a)?, self.number(*b)?);
-                let decided = match self.reordering && !(a.free.is_leaf() && b.free.is_leaf()) {
-                    true => a.free.compare(*op, b.free),
-                    false => a.value.compare(*op, b.value),
-                };
-                decided.map_or_else(|| self.choice(Choice::Comparison(condition)), Ok)
-            }
-            Cond::Not(a) => Ok(!self.holds(*a)?),
-            Cond::And(parts) => {
-                for part in parts {
-                    if !self.holds(*part)? {
-                        return Ok(false);
-                    }
-                }
-                Ok(true)
-            }
-            Cond::Or(parts) => {
-                for part in parts {
-                    if self.holds(*part)? {
-                        return Ok(true);
-                    }
-                }
-                Ok(false)
-            }
-            Cond::If(condition, then, other) => match self.holds(*condition)? {
-                true => self.holds(*then),
-                false => self.holds(*other),
-            },
-        }
     }
 
     fn number(&self, expr: ExprId) -> Result<Known, Stop> {
@@ -372,7 +319,7 @@ impl<'p> IntervalInterpreter<'p> {
                     TernaryOp::Clamp | TernaryOp::Smoothstep => None,
                 })
             }
-            Node::Select(condition, then, other) => match self.holds(condition)? {
+            Node::Select(condition, then, other) => match (&mut &*self).decide(condition)? {
                 true => self.number(then)?,
                 false => self.number(other)?,
             },
@@ -399,5 +346,32 @@ impl<'p> IntervalInterpreter<'p> {
         }
         let upper = self.choice(Choice::Jump(expr))?;
         Ok(Interval::constant(if upper { image.hi() } else { image.lo() }))
+    }
+}
+
+impl<'p> Walk<'p> for &IntervalInterpreter<'p> {
+    type Stop = Stop;
+
+    fn program(&self) -> &'p Program {
+        self.program
+    }
+
+    fn has_level(&mut self, input: InputId, levels: LevelSet) -> Result<bool, Stop> {
+        match self.point[input.index()] {
+            Some(Value::Level(level)) => {
+                self.look_at(input);
+                Ok(levels.contains(level))
+            }
+            Some(Value::Number(_)) | None => Err(Stop::Missing),
+        }
+    }
+
+    fn compare(&mut self, condition: CondId, op: Comparison, a: ExprId, b: ExprId) -> Result<bool, Stop> {
+        let (a, b) = (self.number(a)?, self.number(b)?);
+        let decided = match self.reordering && !(a.free.is_leaf() && b.free.is_leaf()) {
+            true => a.free.compare(op, b.free),
+            false => a.value.compare(op, b.value),
+        };
+        decided.map_or_else(|| self.choice(Choice::Comparison(condition)), Ok)
     }
 }

@@ -20,6 +20,7 @@ mod interval;
 mod precise;
 mod residual;
 mod scalar;
+mod walk;
 
 pub use admissible::{Admissible, IntervalInterpreter, Possible};
 pub use batch::{Batch, Missing};

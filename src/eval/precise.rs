@@ -14,8 +14,9 @@ use std::collections::HashMap;
 
 use astro_float_num::{BigFloat, Consts, RoundingMode, Sign};
 
+use super::walk::Walk;
 use crate::program::{
-    BinaryOp, Comparison, Cond, CondId, ExprId, InputId, LevelSet, Node, Program, TernaryOp, UnaryOp, Value,
+    BinaryOp, Comparison, CondId, ExprId, InputId, LevelSet, Node, Program, TernaryOp, UnaryOp, Value,
 };
 
 /// Bits of every number.
@@ -111,7 +112,8 @@ impl<'p> Precise<'p> {
     #[cfg(feature = "trial")]
     pub fn way(&mut self, point: &[Option<Value>]) -> Result<(Option<usize>, Option<usize>), Unknown> {
         self.place(point, None);
-        self.taken()
+        let taken = self.taken()?;
+        Ok((taken.row, taken.line))
     }
 
     /// Returns whether a condition holds at a point, over the reals.
@@ -121,74 +123,12 @@ impl<'p> Precise<'p> {
     #[cfg(feature = "trial")]
     pub fn holds_at(&mut self, point: &[Option<Value>], condition: CondId) -> Result<bool, Unknown> {
         self.place(point, None);
-        self.holds(condition)
+        self.decide(condition)
     }
 
-    /// Follows [`super::Interpreter::evaluate`].
     fn evaluate(&mut self) -> Result<Vec<f64>, Unknown> {
-        let program = self.program;
-        let values = match self.taken()? {
-            (Some(row), Some(line)) => &program.rows[row].lines[line].values,
-            (Some(_), None) | (None, _) => &program.default,
-        };
-        values.iter().map(|value| self.expression(*value)).collect()
-    }
-
-    /// The row that is taken and the line of it that applies.
-    fn taken(&mut self) -> Result<(Option<usize>, Option<usize>), Unknown> {
-        let program = self.program;
-        for (index, row) in program.rows.iter().enumerate() {
-            if !self.holds(row.guard)? {
-                continue;
-            }
-            for (number, line) in row.lines.iter().enumerate() {
-                if self.holds(line.condition)? {
-                    return Ok((Some(index), Some(number)));
-                }
-            }
-            return Ok((Some(index), None));
-        }
-        Ok((None, None))
-    }
-
-    fn has_level(&self, input: InputId, levels: LevelSet) -> Result<bool, Unknown> {
-        match self.point[input.index()] {
-            Some(Value::Level(level)) => Ok(levels.contains(level)),
-            _ => Err(Unknown::Absent(input)),
-        }
-    }
-
-    fn holds(&mut self, condition: CondId) -> Result<bool, Unknown> {
-        let program = self.program;
-        match program.pool.cond(condition) {
-            Cond::Const(value) => Ok(*value),
-            Cond::Level(input, levels) => self.has_level(*input, *levels),
-            Cond::Compare(op, a, b) => {
-                let (a, b) = (self.number(*a)?, self.number(*b)?);
-                Ok(compare(*op, &a, &b))
-            }
-            Cond::Not(a) => Ok(!self.holds(*a)?),
-            Cond::And(parts) => {
-                for part in parts {
-                    if !self.holds(*part)? {
-                        return Ok(false);
-                    }
-                }
-                Ok(true)
-            }
-            Cond::Or(parts) => {
-                for part in parts {
-                    if self.holds(*part)? {
-                        return Ok(true);
-                    }
-                }
-                Ok(false)
-            }
-            Cond::If(condition, then, other) => match self.holds(*condition)? {
-                true => self.holds(*then),
-                false => self.holds(*other),
-            },
-        }
+        let taken = self.taken()?;
+        taken.values.iter().map(|value| self.expression(*value)).collect()
     }
 
     fn number(&mut self, expr: ExprId) -> Result<BigFloat, Unknown> {
@@ -216,7 +156,7 @@ impl<'p> Precise<'p> {
                 let (a, b, c) = (self.number(a)?, self.number(b)?, self.number(c)?);
                 ternary(op, &a, &b, &c)
             }
-            Node::Select(condition, then, other) => match self.holds(condition)? {
+            Node::Select(condition, then, other) => match self.decide(condition)? {
                 true => self.number(then)?,
                 false => self.number(other)?,
             },
@@ -316,6 +256,26 @@ impl<'p> Precise<'p> {
             (true, false) => add(&inner, &pi),
             (true, true) => subtract(&inner, &pi),
         }
+    }
+}
+
+impl<'p> Walk<'p> for Precise<'p> {
+    type Stop = Unknown;
+
+    fn program(&self) -> &'p Program {
+        self.program
+    }
+
+    fn has_level(&mut self, input: InputId, levels: LevelSet) -> Result<bool, Unknown> {
+        match self.point[input.index()] {
+            Some(Value::Level(level)) => Ok(levels.contains(level)),
+            Some(Value::Number(_)) | None => Err(Unknown::Absent(input)),
+        }
+    }
+
+    fn compare(&mut self, _: CondId, op: Comparison, a: ExprId, b: ExprId) -> Result<bool, Unknown> {
+        let (a, b) = (self.number(a)?, self.number(b)?);
+        Ok(compare(op, &a, &b))
     }
 }
 

@@ -1,6 +1,7 @@
 //! The reference interpreter: one point at a time, by the book.
 
-use crate::program::{Cond, CondId, ExprId, InputId, InputSet, Node, Program, Real, Value};
+use super::walk::{Taken, Walk};
+use crate::program::{Comparison, CondId, ExprId, InputId, InputSet, LevelSet, Node, Program, Real, Value};
 
 /// The result at one point.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,26 +90,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
     /// ```
     pub fn evaluate(&mut self, point: &[Option<Value>]) -> Result<Outcome<T>, NeedsFetch> {
         self.place(point)?;
-        for (index, row) in self.program.rows.iter().enumerate() {
-            if !self.holds(row.guard)? {
-                continue;
-            }
-            for (number, line) in row.lines.iter().enumerate() {
-                if self.holds(line.condition)? {
-                    return self.outcome(Some(index), Some(number), &line.values);
-                }
-            }
-            return self.outcome(Some(index), None, &self.program.default);
-        }
-        self.outcome(None, None, &self.program.default)
-    }
-
-    fn outcome(
-        &mut self,
-        row: Option<usize>,
-        line: Option<usize>,
-        values: &[ExprId],
-    ) -> Result<Outcome<T>, NeedsFetch> {
+        let Taken { row, line, values } = self.taken()?;
         let values = values.iter().map(|value| self.number(*value)).collect::<Result<_, _>>()?;
         Ok(Outcome { row, line, values, fetched: self.fetched })
     }
@@ -136,42 +118,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
     /// # Errors
     /// With the first input that is needed but absent.
     pub fn holds(&mut self, condition: CondId) -> Result<bool, NeedsFetch> {
-        let program = self.program;
-        match program.pool.cond(condition) {
-            Cond::Const(value) => Ok(*value),
-            Cond::Level(input, levels) => {
-                self.need(*input)?;
-                Ok(levels.contains(self.levels[input.index()]))
-            }
-            Cond::Compare(op, a, b) => {
-                let (a, b) = (self.number(*a)?, self.number(*b)?);
-                Ok(op.holds(a, b))
-            }
-            Cond::Not(a) => Ok(!self.holds(*a)?),
-            Cond::And(parts) => {
-                for part in parts {
-                    if !self.holds(*part)? {
-                        return Ok(false);
-                    }
-                }
-                Ok(true)
-            }
-            Cond::Or(parts) => {
-                for part in parts {
-                    if self.holds(*part)? {
-                        return Ok(true);
-                    }
-                }
-                Ok(false)
-            }
-            Cond::If(condition, then, other) => {
-                if self.holds(*condition)? {
-                    self.holds(*then)
-                } else {
-                    self.holds(*other)
-                }
-            }
-        }
+        self.decide(condition)
     }
 
     /// The value of an expression at the current point.
@@ -197,7 +144,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
             Node::Unary(op, a) => T::unary(op, self.number(a)?),
             Node::Binary(op, a, b) => T::binary(op, self.number(a)?, self.number(b)?),
             Node::Ternary(op, a, b, c) => T::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?),
-            Node::Select(condition, then, other) => match self.holds(condition)? {
+            Node::Select(condition, then, other) => match self.decide(condition)? {
                 true => self.number(then)?,
                 false => self.number(other)?,
             },
@@ -206,6 +153,24 @@ impl<'p, T: Real> Interpreter<'p, T> {
             *place = Some(value);
         }
         Ok(value)
+    }
+}
+
+impl<'p, T: Real> Walk<'p> for Interpreter<'p, T> {
+    type Stop = NeedsFetch;
+
+    fn program(&self) -> &'p Program {
+        self.program
+    }
+
+    fn has_level(&mut self, input: InputId, levels: LevelSet) -> Result<bool, NeedsFetch> {
+        self.need(input)?;
+        Ok(levels.contains(self.levels[input.index()]))
+    }
+
+    fn compare(&mut self, _: CondId, op: Comparison, a: ExprId, b: ExprId) -> Result<bool, NeedsFetch> {
+        let (a, b) = (self.number(a)?, self.number(b)?);
+        Ok(op.holds(a, b))
     }
 }
 

@@ -75,7 +75,7 @@ impl Timed {
     /// # Errors
     /// When the source is refused; that would be a bug of the emitter or the driver.
     pub fn plan(gpu: &Gpu, proved: &Proved<'_>, rows_of_thread: u32) -> Result<Self, Failure> {
-        let lookup = proved.plan().reads_lookup().then(|| lookup_words(proved.plan()));
+        let lookup = lookup_words(proved.plan());
         Self::new(gpu, proved.plan().program, &wgsl_timed(proved, rows_of_thread), lookup, rows_of_thread)
     }
 

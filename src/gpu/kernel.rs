@@ -95,7 +95,7 @@ impl<'a, 'p> Kernel<'a, 'p> {
         let layout = Layout::new(program, entry);
         let module = Module::new(gpu, &program.name, module)?;
         let compute = module.compute(gpu, module.only_compute()?, &[])?;
-        let lookup = proved.plan().reads_lookup().then(|| gpu.storage("lookup", &lookup_words(proved.plan())));
+        let lookup = lookup_words(proved.plan()).map(|words| gpu.storage("lookup", &words));
         gpu.check()?;
         let (key, names) = (proved.plan().key.clone(), Names::new(program));
         Ok(Self { gpu, program, key, entry, layout, module, compute, names, lookup })

@@ -70,6 +70,8 @@ fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
     let when = study.space.condition(*when, View::PLAIN);
     let admitted = study.space.sets.and(study.assumed, image_assumed);
     let admitted = study.space.sets.and(admitted, when);
+    let inside = study.inside(&continuity.map.numbers);
+    let admitted = study.space.sets.and(admitted, inside);
     let mut jumps = Vec::new();
     for piece in study.pieces.clone() {
         let here = study.space.sets.and(piece.set, admitted);

@@ -176,11 +176,13 @@ fn contradictions(study: &mut Study<'_>, number: usize) -> (Vec<Contradiction>, 
     let symmetry = &study.program.symmetries[number];
     let view = study.space.view(&symmetry.levels, &symmetry.numbers, View::PLAIN);
     let (images, image_assumed) = study.seen(view);
+    let inside = study.inside(&symmetry.numbers);
     let admitted = study.space.sets.and(study.assumed, image_assumed);
     let (mut broken, mut saved) = (Vec::new(), Vec::new());
     for piece in study.pieces.clone() {
         for image in &images {
             let both = study.space.sets.and(piece.set, image.set);
+            let both = study.space.sets.and(both, inside);
             if both.is_empty() {
                 continue;
             }

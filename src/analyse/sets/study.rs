@@ -4,7 +4,7 @@ use super::Set;
 use super::budget::STEPS;
 use super::nearby::Nearby;
 use super::space::{Space, View};
-use crate::program::{ExprId, Program};
+use crate::program::{Comparison, Domain, ExprId, InputId, Program};
 use crate::table::HitPolicy;
 
 /// A value without selections, and the set where a row gives it.
@@ -182,6 +182,24 @@ impl<'p> Study<'p> {
     pub(in crate::analyse) fn seen(&mut self, view: View) -> (Vec<Piece>, Set) {
         let rows = Rows::new(&mut self.space, view);
         (rows.pieces(&mut self.space, view), assumed(&mut self.space, view))
+    }
+
+    /// The set where an image is an input that can be given: the numbers there are in their ranges.
+    pub(in crate::analyse) fn inside(&mut self, image: &[(InputId, ExprId)]) -> Set {
+        let program = self.program;
+        image.iter().fold(Set::ALL, |all, (input, number)| match program.inputs[input.index()].domain {
+            Domain::Discrete(_) => all,
+            Domain::Continuous { lo, hi, .. } => {
+                let pool = &mut self.space.pool;
+                let [lo, hi] = [lo, hi].map(|bound| pool.number(bound));
+                let sides = [(lo, *number), (*number, hi)];
+                let sides = sides.map(|(low, high)| pool.compare(Comparison::LessEqual, low, high));
+                sides.into_iter().fold(all, |all, side| {
+                    let side = self.space.condition(side, View::PLAIN);
+                    self.space.sets.and(all, side)
+                })
+            }
+        })
     }
 
     /// A few assumptions without which something could reach a set that nothing

@@ -3,7 +3,9 @@
 //! Points of findings have short binary fractions, so that for tables that are
 //! piecewise linear nothing is rounded here.
 
-use crate::program::{Comparison, Cond, CondId, ExprId, InputId, LevelTerm, Node, Pool, Program, Symmetry, Value};
+use crate::program::{
+    Comparison, Cond, CondId, Domain, ExprId, Input, InputId, LevelTerm, Node, Pool, Program, Symmetry, Value,
+};
 
 /// Inputs that reach some set.
 #[derive(Debug, Clone)]
@@ -67,9 +69,14 @@ impl Point {
         }
     }
 
-    /// Returns whether all assumptions hold here.
+    /// Returns whether the numbers are in their ranges, as those of an image need not be, and all assumptions hold.
     pub(in crate::analyse) fn is_admitted(&self, program: &Program) -> bool {
-        program.assumptions.iter().all(|assumption| self.holds(&program.pool, assumption.condition))
+        let inside = |(input, number): (&Input, &f64)| match input.domain {
+            Domain::Continuous { lo, hi, .. } => (lo..=hi).contains(number),
+            Domain::Discrete(_) => true,
+        };
+        program.inputs.iter().zip(&self.numbers).all(inside)
+            && program.assumptions.iter().all(|assumption| self.holds(&program.pool, assumption.condition))
     }
 
     /// Returns whether another condition is asked on the way to the outcome of this one.

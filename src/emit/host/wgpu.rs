@@ -3,8 +3,6 @@
 //! The generated text goes with wgpu 30. It takes a device and a queue as they
 //! are, so it fits into any program that has them.
 
-use std::fmt::Write as _;
-
 use super::Side;
 use crate::emit::kernel::columns;
 use crate::emit::kernel::columns::{Entry, Layout, WORKGROUP};
@@ -28,10 +26,8 @@ pub(in crate::emit) fn write(side: &Side<'_, '_>, text: &mut Text) {
     }
     let shader = columns::wgsl_columns(side.proved, Entry::Key);
     let hashes = "#".repeat(longest_run(&shader) + 1);
-    let mut lookup = String::new();
-    for (index, word) in lookup_words(side.proved.plan()).iter().enumerate().filter(|_| side.has_lookup()) {
-        let _ = write!(lookup, "{}{word}", if index == 0 { "" } else { ", " });
-    }
+    let words = lookup_words(side.proved.plan()).unwrap_or_default();
+    let lookup = words.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
     let keep = |line: &&str| {
         let (has_fetched, has_lookup) = (!fetched.is_empty(), side.has_lookup());
         (has_fetched || !line.contains("//F")) && (has_lookup || !line.contains("//L"))

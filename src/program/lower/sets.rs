@@ -4,7 +4,7 @@
 //! one that imports that as `shapes`. Two sets that look alike are two sets.
 
 use super::fetches::Fetch;
-use super::{Lowering, Result, SetId, Term};
+use super::{Lowering, Result, SINCE, SetId, Term};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::LevelTerm;
 use crate::program::classes::Classes;

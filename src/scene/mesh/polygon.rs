@@ -1,15 +1,17 @@
 //! A face of any number of corners → triangles that cover it and nothing else.
 //!
-//! A convex face becomes a fan. Of another one, ears are cut off: corners whose
-//! triangle contains no further corner. A face that crosses itself has no inside
-//! and is refused, as is one too large for work that grows with the square.
+//! A convex face becomes a fan, another one is cut by `earcut`. A face that crosses itself
+//! has no inside and is refused, as is one too large for work that grows with the square.
 
+use earcut::Earcut;
 use glam::{DVec2, DVec3};
 
 use super::{Broken, Result};
 
 /// Most corners of a face that is not convex.
 const MAX_CORNERS: usize = 1000;
+/// Most by which triangles may differ from the face in area, as a part of it.
+const MAX_DEVIATION: f64 = 1e-6;
 
 /// Triangles of a flat face, as indices of its corners.
 pub(super) fn triangles(corners: &[DVec3]) -> Result<Vec<[usize; 3]>> {
@@ -69,28 +71,18 @@ fn crosses_itself(flat: &[DVec2]) -> bool {
     })
 }
 
-/// Cuts off ears until nothing is left; `None` if there is none.
+/// Cuts off ears until nothing is left; `None` if triangles do not cover the same area. Corners on a straight line
+/// may be left out.
 fn ears(flat: &[DVec2]) -> Option<Vec<[usize; 3]>> {
-    let mut left: Vec<usize> = (0..flat.len()).collect();
-    let mut found = Vec::with_capacity(flat.len() - 2);
-    let mut at = 0;
-    while left.len() > 3 {
-        let around =
-            |at: usize| [left[(at + left.len() - 1) % left.len()], left[at % left.len()], left[(at + 1) % left.len()]];
-        let is_ear = |at: &usize| {
-            let [a, b, c] = around(*at).map(|index| flat[index]);
-            let free = |p: &DVec2| {
-                [a, b, c].contains(p) || [area(a, b, *p), area(b, c, *p), area(c, a, *p)].iter().any(|area| *area < 0.0)
-            };
-            // A corner without area belongs to no inside and can go.
-            area(a, b, c) == 0.0 || (area(a, b, c) > 0.0 && left.iter().all(|index| free(&flat[*index])))
-        };
-        let ear = (at..at + left.len()).map(|at| at % left.len()).find(is_ear)?;
-        found.push(around(ear));
-        left.remove(ear);
-        // Not the next corner, so that triangles do not become a fan of slivers.
-        at = ear + 1;
-    }
-    found.push([left[0], left[1], left[2]]);
-    Some(found)
+    let places = || flat.iter().map(DVec2::to_array);
+    let mut cut: Vec<u32> = Vec::new();
+    Earcut::new().earcut(places(), &[], &mut cut);
+    (earcut::deviation(places(), &[], &cut) < MAX_DEVIATION)
+        .then(|| cut.as_chunks().0.iter().map(|c| turned_left(flat, c)).collect())
+}
+
+/// The corners of a triangle in the order of the face that it is cut from.
+fn turned_left(flat: &[DVec2], corners: &[u32; 3]) -> [usize; 3] {
+    let [a, b, c] = corners.map(|corner| corner as usize);
+    if area(flat[a], flat[b], flat[c]) < 0.0 { [a, c, b] } else { [a, b, c] }
 }

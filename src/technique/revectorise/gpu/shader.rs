@@ -136,9 +136,8 @@ impl<'g> Shader<'g> {
             Output::Compute if two => Pipeline::Queue(compute("glance_pass")?, compute("queue_pass")?),
             Output::Compute | Output::Record | Output::Count => Pipeline::Compute(compute("visibility_pass")?),
         };
-        let lookup = proved
-            .filter(|proved| proved.plan().reads_lookup())
-            .map(|proved| gpu.storage("lookup", &lookup_words(proved.plan())));
+        let lookup = proved.and_then(|proved| lookup_words(proved.plan()));
+        let lookup = lookup.map(|words| gpu.storage("lookup", &words));
         gpu.check()?;
         let keys = proved.map_or_else(Keys::default, |proved| Keys::new(proved.plan()));
         Ok(Self { gpu, output, module, pipeline, lookup, keys })
