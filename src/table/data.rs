@@ -6,7 +6,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{ConstantValue, MAX_BYTES, Table};
+use super::MAX_BYTES;
 use crate::diag::{Diagnostic, Failure, Source, Span, Spanned, codes};
 use crate::text::file::{read_text, shown};
 use crate::text::reach::{OutOfReach, beside};
@@ -23,18 +23,8 @@ pub struct DataFile {
     pub rows: Vec<Vec<f64>>,
 }
 
-/// Reads the files that the constants of a table name.
-pub(super) fn resolve(table: &mut Table) -> Result<(), Failure> {
-    let source = table.source.clone();
-    for constant in &mut table.constants {
-        if let ConstantValue::File(path, read) = &mut constant.value {
-            *read = Some(Arc::new(file(&source, path)?));
-        }
-    }
-    Ok(())
-}
-
-fn file(table: &Arc<Source>, path: &Spanned<String>) -> Result<DataFile, Failure> {
+/// Reads the file that a table names at a place.
+pub(super) fn file(table: &Arc<Source>, path: &Spanned<String>) -> Result<DataFile, Failure> {
     let error = |message: String| Diagnostic::error(codes::DATA_FILE, message).at(path.span, "named here");
     let fail = |diagnostic| Failure::new(table.clone(), diagnostic);
     let folder = Path::new(&table.name).parent().unwrap_or(Path::new(""));

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{MAX_BYTES, Table, names, read};
+use super::{ConstantValue, MAX_BYTES, Table, data, names, read};
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::text::file::{read_text, shown};
 use crate::text::reach::{OutOfReach, beside, plain};
@@ -23,8 +23,12 @@ pub(super) fn resolve(table: Table) -> Result<Table, Failure> {
 
 /// Reads what a table at the end of a chain of imports imports, and counts the tables of the longest chain from it on.
 fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known) -> Result<(Table, usize), Failure> {
-    super::data::resolve(&mut table)?;
     let source = table.source.clone();
+    for constant in &mut table.constants {
+        if let ConstantValue::File(path, read) = &mut constant.value {
+            *read = Some(Arc::new(data::file(&source, path)?));
+        }
+    }
     let fail = |diagnostic| Failure::new(source.clone(), diagnostic);
     let mut imports = std::mem::take(&mut table.imports);
     let mut longest = 1;
