@@ -157,6 +157,10 @@ impl<'p> Rounding<'p> {
                     BinaryAlgebra::Product => a.times(b),
                     BinaryAlgebra::Minimum | BinaryAlgebra::Maximum => Some(a.join(b)),
                     BinaryAlgebra::Opaque if op == BinaryOp::Step => Some(Grid::TRUTH),
+                    // Whole, and no larger than what is divided.
+                    BinaryAlgebra::Opaque if matches!(op, BinaryOp::WholeQuotient | BinaryOp::WholeRemainder) => {
+                        Grid { unit: 1.0, most: a.most }.checked()
+                    }
                     BinaryAlgebra::Quotient | BinaryAlgebra::Opaque => None,
                 }
             }
