@@ -29,7 +29,7 @@ pub(super) struct Fetch {
     pub(super) scalar: Scalar,
     /// The arguments that it takes, besides the site.
     pub(super) parameters: Vec<String>,
-    /// What it is called for: the place among all inputs that are fetched, and the arguments.
+    /// The calls of it: the place of each among all inputs that are fetched, and its arguments.
     pub(super) calls: Vec<(usize, Vec<f32>)>,
 }
 

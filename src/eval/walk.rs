@@ -67,7 +67,7 @@ pub(super) trait Walk<'p> {
     }
 }
 
-/// What gives the result.
+/// The part of a program that gives the result.
 pub(super) struct Taken<'p> {
     /// The row; `None` if none is taken.
     pub(super) row: Option<usize>,

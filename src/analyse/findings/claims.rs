@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-12;
 pub(in crate::analyse) const ANALYSIS: Analysis =
     Analysis { codes: &[codes::CLAIM_BROKEN], run: Run::Program(findings) };
 
-/// What is known of a claim.
+/// The verdict on a claim.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Verdict {
     /// Both sides were computed, for so many combinations of levels.

@@ -74,13 +74,14 @@ impl Body<'_, '_> {
             return false;
         }
         let (mut open, mut seen) = (vec![expr], HashSet::new());
-        while let Some(part) = open.pop().filter(|_| seen.len() < MAX_PLAIN as usize) {
+        while let Some(part) = open.pop() {
             let node = pool.node(part);
             if matches!(node, Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) {
                 return true;
             }
             open.extend(node.children().filter(|child| seen.insert(*child)));
         }
-        !open.is_empty()
+        // Nothing but choices: what several of them share gets a name as a choice.
+        false
     }
 }

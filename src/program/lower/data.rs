@@ -242,7 +242,7 @@ impl<'t> Lowering<'t> {
         self.pick(first, &mut of, &|me, condition, a, b| me.pool.select(condition, a, b))
     }
 
-    /// What stands at a place; `either` chooses between two things by a condition.
+    /// The thing at a place; `either` chooses between two things by a condition.
     fn pick<T>(
         &mut self,
         at: &At,
