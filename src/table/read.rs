@@ -4,13 +4,15 @@
 //! rest. Independent parts (inputs, cases, …) are read one by one, so that a
 //! mistake in one does not hide the mistakes in the others.
 
+mod conditions;
+mod maps;
+
 use serde::Deserialize;
 
-use super::expr::{BinaryOp, Expr, ExprKind, UnaryOp};
-use super::parse::expression;
+use super::expr::{Expr, ExprKind};
 use super::{
-    Allow, Assumption, Case, CaseBody, Continuity, ContinuityKind, Domain, Erratum, Example, Group, HitPolicy, Image,
-    Input, LANGUAGE, Level, Line, Named, Output, ResultMap, Symmetry, Table,
+    Allow, Assumption, Case, CaseBody, Domain, Erratum, Example, Group, HitPolicy, Input, LANGUAGE, Level, Line, Named,
+    Output, Table,
 };
 use crate::diag::{Diagnostic, Source, Span, Spanned, codes};
 use crate::text::raw::{Raw, RawMap, Reader, Shape};
@@ -130,36 +132,6 @@ fn most() -> i64 {
 #[serde(deny_unknown_fields)]
 struct FetchedRon {
     cost: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(rename = "Symmetry", deny_unknown_fields)]
-struct SymmetryRon<'a> {
-    #[serde(borrow)]
-    map: RawMap<'a>,
-    #[serde(default)]
-    result: Option<Raw<'a>>,
-    #[serde(default)]
-    doc: String,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-enum ContinuityRon<'a> {
-    Border {
-        #[serde(borrow)]
-        when: Raw<'a>,
-        map: RawMap<'a>,
-        #[serde(default)]
-        free: Vec<Raw<'a>>,
-        #[serde(default)]
-        doc: String,
-    },
-    Switch {
-        of: Vec<Raw<'a>>,
-        #[serde(default)]
-        doc: String,
-    },
 }
 
 #[derive(Deserialize)]
@@ -499,115 +471,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A condition: an expression, or guards as data.
-    ///
-    /// `{"H": ["left", "right"], "b": "entering"}` is a conjunction; `All`, `Any` and
-    /// `Not` combine. The result is the same tree that the infix form gives.
-    fn condition(&self, raw: Raw<'a>) -> Result<Expr> {
-        let span = self.span(raw);
-        match self.shape(raw) {
-            Shape::Map => {
-                let map: RawMap<'a> = self.get(raw)?;
-                let atoms = map.0.iter().map(|(n, l)| self.atom(*n, *l)).collect::<Result<Vec<_>>>()?;
-                self.chain(BinaryOp::And, atoms, raw)
-            }
-            Shape::Variant(word @ ("All" | "Any")) => {
-                let items = match self.get::<CombinedRon<'a>>(raw)? {
-                    CombinedRon::All(items) | CombinedRon::Any(items) => items,
-                    CombinedRon::Not(item) => vec![item],
-                };
-                let items = items.into_iter().map(|item| self.condition(item)).collect::<Result<Vec<_>>>()?;
-                self.chain(if word == "All" { BinaryOp::And } else { BinaryOp::Or }, items, raw)
-            }
-            Shape::Variant("Not") => match self.get::<CombinedRon<'a>>(raw)? {
-                CombinedRon::Not(item) => {
-                    Ok(Expr { span, kind: ExprKind::Unary(UnaryOp::Not, Box::new(self.condition(item)?)) })
-                }
-                CombinedRon::All(_) | CombinedRon::Any(_) => Err(self.no_condition(raw)),
-            },
-            Shape::Text | Shape::Other | Shape::Word("true" | "false") => self.expr(raw),
-            _ => Err(self.no_condition(raw)),
-        }
-    }
-
-    fn no_condition(&self, raw: Raw<'a>) -> Diagnostic {
-        Diagnostic::error(codes::STRUCTURE, "expected a condition").at(self.span(raw), "not a condition").help(
-            "write \"H == left && tV == dual_positive\", {\"H\": [\"left\", \"right\"]}, All([...]), Any([...]) or Not(...)",
-        )
-    }
-
-    /// Joins conditions, balanced, so that long lists stay shallow.
-    fn chain(&self, op: BinaryOp, mut items: Vec<Expr>, raw: Raw<'a>) -> Result<Expr> {
-        if items.is_empty() {
-            return Err(Diagnostic::error(codes::STRUCTURE, "an empty list of conditions")
-                .at(self.span(raw), "expected at least one condition"));
-        }
-        while items.len() > 1 {
-            let mut next = Vec::with_capacity(items.len().div_ceil(2));
-            let mut pairs = items.into_iter();
-            while let Some(left) = pairs.next() {
-                next.push(match pairs.next() {
-                    Some(right) => {
-                        let span = left.span.to(right.span);
-                        Expr { span, kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) }
-                    }
-                    None => left,
-                });
-            }
-            items = next;
-        }
-        Ok(items.remove(0))
-    }
-
-    /// `"H": "left"` or `"H": ["left", "right"]`
-    fn atom(&self, name: Raw<'a>, levels: Raw<'a>) -> Result<Expr> {
-        let name = self.word(name)?;
-        let span = name.span.to(self.span(levels));
-        let levels = match self.shape(levels) {
-            Shape::List => {
-                self.get::<Vec<Raw<'a>>>(levels)?.into_iter().map(|l| self.word(l)).collect::<Result<Vec<_>>>()?
-            }
-            _ => vec![self.word(levels)?],
-        };
-        let input = match name.value.contains('(') {
-            true => expression(&name.value, name.span.start + 1)?,
-            false => Expr { span: name.span, kind: ExprKind::Name(name.value) },
-        };
-        Ok(Expr { span, kind: ExprKind::In(Box::new(input), levels) })
-    }
-
-    fn symmetry(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Symmetry> {
-        let ron: SymmetryRon<'a> = self.get(raw)?;
-        let map = ron.map.0.iter().map(|(n, i)| Ok((self.word(*n)?, self.image(*i)?))).collect::<Result<_>>()?;
-        let result = ron.result.map(|r| self.result_map(r)).transpose()?;
-        Ok(Symmetry { name: self.word(name)?, map, result, doc: ron.doc })
-    }
-
-    fn result_map(&self, raw: Raw<'a>) -> Result<ResultMap> {
-        match self.shape(raw) {
-            Shape::Map => {
-                let parts: RawMap<'a> = self.get(raw)?;
-                let parts = parts.0.iter().map(|(name, part)| Ok((self.word(*name)?, self.result_map(*part)?)));
-                Ok(ResultMap::Parts(self.span(raw), parts.collect::<Result<_>>()?))
-            }
-            _ => self.level_or_expr(raw).map(ResultMap::Expr),
-        }
-    }
-
-    fn image(&self, raw: Raw<'a>) -> Result<Image> {
-        let renaming = |map: RawMap<'a>| {
-            map.0.iter().map(|(a, b)| Ok((self.word(*a)?, self.word(*b)?))).collect::<Result<Vec<_>>>()
-        };
-        match self.shape(raw) {
-            Shape::Map => Ok(Image::Levels { from: None, map: renaming(self.get(raw)?)? }),
-            Shape::Variant("From") => {
-                let FromRon::From(input, map) = self.get(raw)?;
-                Ok(Image::Levels { from: Some(self.word(input)?), map: renaming(map)? })
-            }
-            _ => self.expr(raw).map(Image::Expr),
-        }
-    }
-
     pub(super) fn assumption(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Assumption> {
         let name = self.word(name)?;
         let (condition, doc) = match self.shape(raw) {
@@ -618,18 +481,6 @@ impl<'a> Reader<'a> {
             _ => (raw, String::new()),
         };
         Ok(Assumption { name, condition: self.condition(condition)?, doc })
-    }
-
-    fn continuity(&self, name: Raw<'a>, raw: Raw<'a>) -> Result<Continuity> {
-        let words = |list: Vec<Raw<'a>>| list.into_iter().map(|w| self.word(w)).collect::<Result<Vec<_>>>();
-        let (kind, doc) = match self.get::<ContinuityRon<'a>>(raw)? {
-            ContinuityRon::Border { when, map, free, doc } => {
-                let map = map.0.iter().map(|(n, i)| Ok((self.word(*n)?, self.image(*i)?))).collect::<Result<_>>()?;
-                (ContinuityKind::Border { when: self.condition(when)?, map, free: words(free)? }, doc)
-            }
-            ContinuityRon::Switch { of, doc } => (ContinuityKind::Switch(words(of)?), doc),
-        };
-        Ok(Continuity { name: self.word(name)?, kind, doc })
     }
 
     /// `(code: "U0508", with: ["lines 1 and 2"], reason: "the text orders them so")`
@@ -733,17 +584,4 @@ impl<'a> Reader<'a> {
             inputs.0.iter().map(|(n, v)| Ok((self.word(*n)?, self.level_or_expr(*v)?))).collect::<Result<_>>()?;
         Ok(Example { span: self.span(raw), inputs, value: self.level_or_expr(value)? })
     }
-}
-
-#[derive(Deserialize)]
-enum CombinedRon<'a> {
-    #[serde(borrow)]
-    All(Vec<Raw<'a>>),
-    Any(Vec<Raw<'a>>),
-    Not(Raw<'a>),
-}
-
-#[derive(Deserialize)]
-enum FromRon<'a> {
-    From(#[serde(borrow)] Raw<'a>, RawMap<'a>),
 }
