@@ -52,8 +52,8 @@ pub struct Reach {
 pub fn reach(program: &Program, row: usize) -> Reach {
     let mut search = Search::new(program, row);
     let states = search.states();
-    let first = if program.hit_policy == HitPolicy::Collect { row } else { 0 };
-    let guards = program.rows[first..=row].iter().map(|row| program.pool.cond_facts(row.guard).inputs);
+    let guards =
+        program.rows[first_asked(program, row)..=row].iter().map(|row| program.pool.cond_facts(row.guard).inputs);
     let digits = program.states.digits().iter().fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(*id)));
     let exact = guards.fold(InputSet::default(), InputSet::or).minus(digits).is_empty();
     let mut order: Vec<(usize, usize)> = states.iter().map(|state| (search.distance(*state), *state)).collect();
@@ -65,6 +65,14 @@ pub fn reach(program: &Program, row: usize) -> Reach {
         search.state(state, distance);
     }
     Reach { states, exact, smallest: search.smallest, lines: search.lines }
+}
+
+/// The first of the rows whose guards decide whether a row counts, up to that row: where all cases count, its own.
+fn first_asked(program: &Program, row: usize) -> usize {
+    match program.hit_policy {
+        HitPolicy::First | HitPolicy::Unique => 0,
+        HitPolicy::Collect => row,
+    }
 }
 
 /// The point that a row's first example gives, if it does lead there.
@@ -141,8 +149,8 @@ impl<'p> Search<'p> {
         let possible = (0..program.states.count()).filter(|state| {
             program.states.write(*state, &mut levels);
             let judged = |row: usize| decide(program, &program.pool, program.rows[row].guard, &levels);
-            let first = if program.hit_policy == HitPolicy::Collect { self.row } else { 0 };
-            judged(self.row) != Some(false) && (first..self.row).all(|row| judged(row) != Some(true))
+            judged(self.row) != Some(false)
+                && (first_asked(program, self.row)..self.row).all(|row| judged(row) != Some(true))
         });
         possible.collect()
     }

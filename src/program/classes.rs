@@ -6,9 +6,9 @@
 //! Integers of few values are the case in which each is a class by itself.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
 use super::pool::LevelSet;
+use super::rational::gcd;
 
 /// The ways in which a table tells the integers of an input apart.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -54,11 +54,8 @@ impl Classes {
         let inside = cuts.starts.iter().copied().filter(|start| (first + 1..=last).contains(start));
         let starts: Vec<i64> = [first].into_iter().chain(inside).collect();
         let modulus = cuts.moduli.iter().fold(1_i64, |all, modulus| {
-            let (mut a, mut b) = (all, *modulus);
-            while b != 0 {
-                (a, b) = (b, a % b);
-            }
-            (all / a).saturating_mul(*modulus)
+            let common = gcd(u128::from(all.unsigned_abs()), u128::from(modulus.unsigned_abs()));
+            (all / common as i64).saturating_mul(*modulus)
         });
         let classes = Self { starts, last, modulus };
         let count = (0..classes.starts.len()).fold(0_i64, |all, place| all.saturating_add(classes.size(place)));
@@ -240,13 +237,7 @@ impl Classes {
         match parts.as_slice() {
             [] => ("false".to_owned(), 3),
             [one] => one.clone(),
-            several => {
-                let mut text = String::new();
-                for (part, _) in several {
-                    let _ = write!(text, "{}{part}", if text.is_empty() { "" } else { " || " });
-                }
-                (text, 1)
-            }
+            several => (several.iter().map(|(part, _)| part.as_str()).collect::<Vec<_>>().join(" || "), 1),
         }
     }
 }

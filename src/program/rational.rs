@@ -10,6 +10,14 @@ use std::ops::Neg;
 use num_rational::Ratio;
 use num_traits::{CheckedAdd, CheckedMul, CheckedSub, Signed, Zero};
 
+/// The greatest common divisor; zero only of zeros.
+pub(crate) fn gcd(mut a: u128, mut b: u128) -> u128 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
 /// A fraction in lowest terms; its numerator is never the smallest `i128`, so that it has a negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Rational(Ratio<i128>);

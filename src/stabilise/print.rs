@@ -3,7 +3,7 @@
 
 use super::kernel::{Kernel, SINC, Term};
 use super::poly::{Atom, Mono, Poly};
-use crate::program::rational::Rational;
+use crate::program::rational::{Rational, gcd};
 
 /// Prints sums; terms that share one of these variables are grouped by it.
 pub(super) struct Printer<'a> {
@@ -105,16 +105,8 @@ fn common(a: Rational, b: Rational) -> Option<Rational> {
         return Some(b.abs());
     }
     let [x, y] = [(a, b), (b, a)].map(|(over, under)| over.numerator().checked_mul(under.denominator()));
-    Rational::fraction(gcd(x?, y?)?, a.denominator().checked_mul(b.denominator())?)
-}
-
-/// The greatest common divisor; zero only of zeros.
-fn gcd(a: i128, b: i128) -> Option<i128> {
-    let (mut a, mut b) = (a.unsigned_abs(), b.unsigned_abs());
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
-    i128::try_from(a).ok()
+    let divisor = i128::try_from(gcd(x?.unsigned_abs(), y?.unsigned_abs())).ok()?;
+    Rational::fraction(divisor, a.denominator().checked_mul(b.denominator())?)
 }
 
 fn join(left: &str, right: &str) -> String {

@@ -26,6 +26,11 @@ impl Type {
         Type::Record(names.iter().map(|name| ((*name).to_owned(), Type::Number)).collect())
     }
 
+    /// The names and types of a record; nothing for other types.
+    pub(super) fn fields(&self) -> Option<&[(String, Type)]> {
+        if let Type::Record(fields) = self { Some(fields) } else { None }
+    }
+
     /// Returns whether it is calculated with, as numbers are.
     pub(super) fn is_numeric(&self) -> bool {
         match self {

@@ -169,15 +169,9 @@ fn of_record(maker: &mut Maker<'_, '_>, scope: &Scope, _: &Type, depth: usize) -
     let records: Vec<(String, Vec<String>)> = scope
         .visible
         .iter()
-        .filter_map(|v| match &v.ty {
-            Type::Record(fields) => Some((v.text.clone(), fields.iter().map(|(name, _)| name.clone()).collect())),
-            Type::Number
-            | Type::Condition
-            | Type::Level(_)
-            | Type::Whole(..)
-            | Type::Wide
-            | Type::Vector(_)
-            | Type::List(..) => None,
+        .filter_map(|v| {
+            let fields = v.ty.fields()?;
+            Some((v.text.clone(), fields.iter().map(|(name, _)| name.clone()).collect()))
         })
         .collect();
     let (text, names) = match records.is_empty() {

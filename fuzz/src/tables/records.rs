@@ -14,16 +14,7 @@ pub(super) fn written(maker: &mut Maker<'_, '_>, scope: &Scope, fields: &[(Strin
 }
 
 fn written_out(maker: &mut Maker<'_, '_>, scope: &Scope, ty: &Type, depth: usize) -> Option<Piece> {
-    match ty {
-        Type::Record(fields) => Some(written(maker, scope, fields, depth)),
-        Type::Number
-        | Type::Condition
-        | Type::Level(_)
-        | Type::Whole(..)
-        | Type::Wide
-        | Type::Vector(_)
-        | Type::List(..) => None,
-    }
+    ty.fields().map(|fields| written(maker, scope, fields, depth))
 }
 
 /// Records of the same names, or one and a number.

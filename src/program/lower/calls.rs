@@ -125,3 +125,23 @@ impl Lowering<'_> {
         }
     }
 }
+
+/// Refuses names that a call gives to nothing, or gives twice; `kind` is what those of the callee are.
+pub(super) fn check_given(callee: &str, kind: &str, known: &[&str], given: &[(Spanned<String>, Expr)]) -> Result<()> {
+    for (index, (name, _)) in given.iter().enumerate() {
+        if !known.contains(&name.value.as_str()) {
+            let error = Diagnostic::error(codes::PARAMETER, format!("`{callee}` has no {kind} `{}`", name.value))
+                .at(name.span, format!("unknown {kind}"));
+            return Err(match nearest(&name.value, known.iter().copied()) {
+                Some(close) => error.help(format!("did you mean `{close}`?")),
+                None => error.help(format!("the {kind}s are: {}", known.join(", "))),
+            });
+        }
+        if let Some((first, _)) = given[..index].iter().find(|(other, _)| other.value == name.value) {
+            return Err(Diagnostic::error(codes::DUPLICATE, format!("`{}` is given twice", name.value))
+                .at(name.span, "again")
+                .at(first.span, "first here"));
+        }
+    }
+    Ok(())
+}

@@ -8,6 +8,7 @@
 
 use std::rc::Rc;
 
+use super::calls::check_given;
 use super::memo::{CallKey, Items};
 use super::scope::Env;
 use super::terms::{Call, Expected, Term, type_error};
@@ -115,25 +116,8 @@ impl<'t> Lowering<'t> {
     ) -> Result<Term> {
         let parameters = callee.0.parameters();
         let function = &callee.0.name().value;
-        for (index, (name, _)) in given.iter().enumerate() {
-            if !parameters.iter().any(|p| p.value == name.value) {
-                let error =
-                    Diagnostic::error(codes::PARAMETER, format!("`{function}` has no parameter `{}`", name.value))
-                        .at(name.span, "unknown parameter");
-                return Err(match nearest(&name.value, parameters.iter().map(|p| p.value.as_str())) {
-                    Some(close) => error.help(format!("did you mean `{close}`?")),
-                    None => error.help(format!(
-                        "the parameters are: {}",
-                        parameters.iter().map(|p| p.value.as_str()).collect::<Vec<_>>().join(", ")
-                    )),
-                });
-            }
-            if let Some((first, _)) = given[..index].iter().find(|(other, _)| other.value == name.value) {
-                return Err(Diagnostic::error(codes::DUPLICATE, format!("`{}` is given twice", name.value))
-                    .at(name.span, "again")
-                    .at(first.span, "first here"));
-            }
-        }
+        let known: Vec<&str> = parameters.iter().map(|parameter| parameter.value.as_str()).collect();
+        check_given(function, "parameter", &known, given)?;
         let (mut terms, mut spans) = (Vec::new(), Vec::new());
         for parameter in parameters {
             match given.iter().find(|(name, _)| name.value == parameter.value) {

@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::calls::check_given;
 use super::memo::CallKey;
 use super::scope::Env;
 use super::terms::{Expected, Term, type_error};
@@ -18,7 +19,6 @@ use crate::program::substitute::{Meanings, Substitution};
 use crate::program::{InputId, LevelTerm, Program};
 use crate::table::Table;
 use crate::table::expr::Expr;
-use crate::text::closest::nearest;
 
 /// The programs of the tables of cases that are imported, each known by the place of its table.
 pub(super) type Programs = HashMap<*const Table, Arc<Program>>;
@@ -109,23 +109,8 @@ impl<'t> Lowering<'t> {
         span: Span,
         env: &Env,
     ) -> Result<Term> {
-        let (table, inputs) = (&called.table.name.value, &called.table.inputs);
-        for (index, (name, _)) in given.iter().enumerate() {
-            if !inputs.iter().any(|input| input.name.value == name.value) {
-                let known = || inputs.iter().map(|input| input.name.value.as_str());
-                let error = Diagnostic::error(codes::PARAMETER, format!("`{table}` has no input `{}`", name.value))
-                    .at(name.span, "unknown input");
-                return Err(match nearest(&name.value, known()) {
-                    Some(close) => error.help(format!("did you mean `{close}`?")),
-                    None => error.help(format!("the inputs are: {}", known().collect::<Vec<_>>().join(", "))),
-                });
-            }
-            if let Some((first, _)) = given[..index].iter().find(|(other, _)| other.value == name.value) {
-                return Err(Diagnostic::error(codes::DUPLICATE, format!("`{}` is given twice", name.value))
-                    .at(name.span, "again")
-                    .at(first.span, "first here"));
-            }
-        }
+        let known: Vec<&str> = called.table.inputs.iter().map(|input| input.name.value.as_str()).collect();
+        check_given(&called.table.name.value, "input", &known, given)?;
         self.table_value(called, given.iter().map(|(name, value)| (&name.value, value)).collect(), span, env)
     }
 
