@@ -85,6 +85,8 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
         .rows
         .iter()
         .enumerate()
+        // Images of a case are rows of their own, which repeat what it allows.
+        .filter(|(row, case)| row.checked_sub(1).is_none_or(|before| program.rows[before].span != case.span))
         .flat_map(|(row, case)| case.allow.iter().map(move |allow| (Some(row), allow)))
         .chain(program.allow.iter().map(|allow| (None, allow)))
         .collect();

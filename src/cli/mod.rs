@@ -5,6 +5,7 @@
 //! output, messages to standard error.
 
 mod answers;
+mod area;
 mod args;
 mod atlas;
 mod build;
@@ -80,6 +81,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Compute the light of polygons at points, behind polygons, boxes and meshes, exactly
+    Area(area::Arguments),
     /// Draw every case of a table
     Atlas(atlas::Arguments),
     /// Measure what each technique costs on this device
@@ -198,6 +201,7 @@ pub fn main() -> ExitCode {
         reach::allow_outside();
     }
     let result = match arguments.command {
+        Command::Area(arguments) => area::run(&arguments, &report),
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Bench(arguments) => render::bench::run(&arguments, &report),

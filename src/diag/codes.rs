@@ -170,6 +170,7 @@ registry! {
     BAD_VALUE = "U0702", Failure, Error, "a value of data is no level or number of its input";
     NEEDS_FETCH = "U0703", Failure, Error, "a row of data needs a fetched input that it does not give";
     BAD_CAPTURE = "U0704", Failure, Error, "a capture is damaged, or holds other inputs than the table's";
+    BAD_POINT = "U0705", Failure, Error, "a point, light or occluder that `area` was given is malformed or impossible";
     FORMAT = "U0721", Failure, Error, "a table that `fmt` would have changed in more than its layout; it is left alone";
     EXISTS = "U0722", Failure, Error, "something that `new` would have replaced";
     // Devices.

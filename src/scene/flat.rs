@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// A reason why corners are no flat convex polygon.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Fault {
+pub(crate) enum Fault {
     /// The corner with this index repeats an earlier one.
     Repeated(usize),
     /// All corners lie on a line.
@@ -23,7 +23,7 @@ pub(super) fn cross(corners: &[DVec3]) -> DVec3 {
 }
 
 /// Checks that corners, at least three, are a flat convex polygon with an area.
-pub(super) fn check(corners: &[DVec3]) -> Result<(), Fault> {
+pub(crate) fn check(corners: &[DVec3]) -> Result<(), Fault> {
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (lo, hi) = corners.iter().fold(start, |(lo, hi), at| (lo.min(*at), hi.max(*at)));
     let extent = (hi - lo).max_element();

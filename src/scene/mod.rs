@@ -4,7 +4,7 @@
 //! reading there are triangles, lights and one camera, and nothing that a
 //! renderer would have to check again.
 
-mod flat;
+pub(crate) mod flat;
 pub mod light;
 mod mesh;
 pub mod rays;

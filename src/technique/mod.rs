@@ -9,6 +9,7 @@
 //! Commands, the tuner and profiles know this interface and the registry [`ALL`]
 //! only: a technique is a module here with an entry in the registry.
 
+pub mod area;
 pub mod capture;
 pub mod cases;
 pub mod count;

@@ -31,6 +31,18 @@ pub static RSMSS: BuiltIn = built_in!("rsmss");
 pub static DOUBLE_PRODUCT: BuiltIn = built_in!("double_product");
 /// Linear approximations of spherical Gaussians.
 pub static SPHERICAL_GAUSSIAN: BuiltIn = built_in!("spherical_gaussian");
+/// The part of a quadrilateral above the horizon.
+pub static HORIZON_CLIP: BuiltIn = built_in!("horizon_clip");
+/// The points that an edge adds to a clipped polygon.
+pub static CLIP_STEP: BuiltIn = built_in!("clip_step");
+/// The edges of a mesh that belong to its silhouette.
+pub static EDGE_SILHOUETTE: BuiltIn = built_in!("edge_silhouette");
+/// The silhouettes of a box.
+pub static BOX_SILHOUETTE: BuiltIn = built_in!("box_silhouette");
+/// The light that arrives from a polygon, edge by edge.
+pub static EDGE_INTEGRAL: BuiltIn = built_in!("edge_integral");
+/// Form factors that have closed forms.
+pub static CLOSED_FORMS: BuiltIn = built_in!("closed_forms");
 
 impl BuiltIn {
     const fn new(name: &'static str, path: &'static str, text: &'static str) -> Self {

@@ -1,9 +1,8 @@
 //! JSON rows: an array of objects whose keys name the inputs.
 
-use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
+use super::raw::{self, Object};
 use super::{CHUNK, Points, Problems};
 use crate::cli::input;
 use crate::diag::{Diagnostic, Source, Span, codes};
@@ -24,16 +23,12 @@ impl<'s> Reader<'s> {
         match serde_json::from_str::<Vec<&'s RawValue>>(&source.text) {
             Ok(rows) => Ok(Self { program, source, rows: rows.into_iter() }),
             Err(error) => {
-                let span = place(&source.text, error.line(), error.column());
                 let diagnostic = match error.classify() {
                     serde_json::error::Category::Data => {
+                        let span = raw::place(&source.text, error.line(), error.column());
                         Diagnostic::error(codes::BAD_COLUMN, "expected an array of rows").at(span, "not an array")
                     }
-                    _ => {
-                        let text = error.to_string();
-                        let reason = text.split(" at line ").next().unwrap_or(&text);
-                        Diagnostic::error(codes::BAD_COLUMN, format!("malformed JSON: {reason}")).at(span, "here")
-                    }
+                    _ => raw::malformed(codes::BAD_COLUMN, source, &error),
                 };
                 Err(vec![diagnostic.help(SHAPE)])
             }
@@ -54,9 +49,7 @@ impl<'s> Reader<'s> {
     }
 
     fn span(&self, raw: &RawValue) -> Span {
-        // A raw value is a slice of the source, so the difference of the addresses is its offset.
-        let start = (raw.get().as_ptr() as usize).saturating_sub(self.source.text.as_ptr() as usize);
-        Span::new(start, start + raw.get().len())
+        raw::span(self.source, raw)
     }
 
     fn row(&self, row: &'s RawValue, points: &mut Points, problems: &mut Problems) {
@@ -130,39 +123,4 @@ impl<'s> Reader<'s> {
 fn at_line(mut error: Diagnostic, line: usize) -> Diagnostic {
     error.message = format!("line {line}: {}", error.message);
     error
-}
-
-/// A position of serde_json, whose columns count bytes.
-fn place(text: &str, line: usize, column: usize) -> Span {
-    let mut start = (Source::offset(text, line, 1) + column.saturating_sub(1)).min(text.len());
-    while !text.is_char_boundary(start) {
-        start -= 1;
-    }
-    let end = start + text[start..].chars().next().map_or(0, char::len_utf8);
-    Span::new(start, end)
-}
-
-/// An object in the order written, repeated keys included.
-struct Object<'s>(Vec<(String, &'s RawValue)>);
-
-impl<'de: 's, 's> Deserialize<'de> for Object<'s> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Object<'de>;
-
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("an object")
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Object(entries))
-            }
-        }
-        deserializer.deserialize_map(Entries)
-    }
 }

@@ -6,6 +6,7 @@
 
 pub(crate) mod csv;
 pub(crate) mod json;
+pub(super) mod raw;
 
 use std::path::Path;
 
@@ -195,6 +196,14 @@ pub(super) fn read_all(program: &Program, path: &Path) -> Result<eval::Columns<f
 /// Returns whether a file is named `….extension`.
 pub(super) fn has_extension(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension))
+}
+
+/// The text of a file, `-` being standard input.
+pub(super) fn text(path: &Path) -> Result<std::sync::Arc<Source>, Failure> {
+    if path.as_os_str() == "-" {
+        return Ok(Source::new(STDIN, utf8(Path::new(STDIN), read_stdin(MAX_BYTES)?)?));
+    }
+    Ok(Source::new(shown(path), read_text(path, MAX_BYTES)?))
 }
 
 /// Reads what the rows are in, `-` being standard input.

@@ -1,0 +1,34 @@
+//! Area lights, exactly: what a polygonal light sends past polygonal occluders.
+//!
+//! ```text
+//! light, point ──Panel──▶ corners ──Horizon──▶ above ──┐
+//! occluders ──Silhouettes──▶ Cones ────────────────────┴─peel─▶ pieces ──Integrals──▶ form factor
+//! ```
+//!
+//! Nothing is projected: a polygon is its corners as seen from the point, an occluder the planes
+//! through the point along its silhouette, and what is visible is left when these are peeled off
+//! ([`peel`]). Every decision is a row of a table: the horizon's clip (`horizon_clip`), the clip
+//! against a plane (`clip_step`), the silhouettes of boxes (`box_silhouette`) and meshes
+//! (`edge_silhouette`), and the edge integral (`edge_integral`). The method is that of KT,
+//! Sakurikar and Narayanan, Fast Analytic Soft Shadows from Area Lights (Graphics Interface 2021),
+//! with half-spaces in place of its polygon clipping.
+
+mod clip;
+mod cone;
+mod integral;
+pub mod mesh;
+mod occluder;
+mod panel;
+mod peel;
+pub mod point;
+mod scalar;
+mod tabulated;
+mod viewpoint;
+
+pub use occluder::Occluder;
+pub use peel::{Bounds, Work};
+pub use point::{Answer, Peeler, Query, Shape};
+pub use scalar::Scalar;
+
+#[cfg(test)]
+mod tests;
