@@ -3,6 +3,8 @@
 //! Everything here is a function of its arguments: fonts are embedded, nothing
 //! of this machine or of the time of day gets in. Knows nothing of tables.
 
+#[cfg(feature = "render")]
+pub mod heat;
 mod page;
 pub mod plot;
 mod raster;

@@ -67,13 +67,19 @@ impl Object {
 }
 
 /// The scenes that come with Umbrage, by name.
-const BUILT_IN: [(&str, &str); 8] = [
+const BUILT_IN: [(&str, &str); 14] = [
+    ("abutting", include_str!("../../scenes/abutting.ron")),
+    ("columns", include_str!("../../scenes/columns.ron")),
+    ("dining", include_str!("../../scenes/dining.ron")),
     ("fence", include_str!("../../scenes/fence.ron")),
     ("foliage", include_str!("../../scenes/foliage.ron")),
+    ("grazing", include_str!("../../scenes/grazing.ron")),
     ("lattice", include_str!("../../scenes/lattice.ron")),
+    ("leaves", include_str!("../../scenes/leaves.ron")),
     ("outdoor", include_str!("../../scenes/outdoor.ron")),
     ("slope", include_str!("../../scenes/slope.ron")),
     ("studio", include_str!("../../scenes/studio.ron")),
+    ("table", include_str!("../../scenes/table.ron")),
     ("teapot", include_str!("../../scenes/teapot.ron")),
     ("text", include_str!("../../scenes/text.ron")),
 ];

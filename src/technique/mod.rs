@@ -49,6 +49,11 @@ pub static ALL: &[&dyn Technique] = &[
     &reference::REFERENCE,
     &integrals::INTEGRALS,
     &integrals::BRUTE_FORCE,
+    &area::AREA_UNSHADOWED,
+    &area::AREA_SAMPLES,
+    &area::AREA_RATIO,
+    &area::PEEL,
+    &area::EXACT,
 ];
 
 /// A way to turn a scene into a picture.

@@ -86,10 +86,10 @@ mod tests {
 
     #[test]
     fn every_table_is_read_and_has_its_name() {
-        for table in [&SMSR, &RSMSS] {
+        for table in [&SMSR, &RSMSS, &HORIZON_CLIP, &CLIP_STEP, &EDGE_SILHOUETTE, &BOX_SILHOUETTE] {
             assert_eq!(table.program().unwrap_or_else(|e| panic!("{e}")).name, table.name);
         }
-        for table in [&DOUBLE_PRODUCT, &SPHERICAL_GAUSSIAN] {
+        for table in [&DOUBLE_PRODUCT, &SPHERICAL_GAUSSIAN, &EDGE_INTEGRAL, &CLOSED_FORMS] {
             assert!(table.programs().unwrap_or_else(|e| panic!("{e}")).len() > 1, "{}", table.name);
         }
         assert!(SMSR.function("moments").is_err());

@@ -1,6 +1,7 @@
 //! The command: what it says, what it writes, and how it refuses.
 #![allow(clippy::unwrap_used)]
 
+mod area;
 mod atlas;
 mod bad_input;
 mod certificates;

@@ -2,6 +2,7 @@
 
 mod occluders;
 mod read;
+mod values;
 
 use std::io::Write;
 use std::path::PathBuf;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde_json::value::RawValue;
 
-use super::read::{Mistake, Read, entries, faulty, items, polygon, vector};
+use super::values::{Mistake, Read, entries, faulty, items, polygon, vector};
 use crate::scene::flat::Fault;
 use crate::technique::area::Occluder;
 use crate::technique::area::mesh::Mesh;

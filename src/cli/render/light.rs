@@ -12,10 +12,10 @@ use crate::cli::messages::Report;
 use crate::cli::output::{Sink, finish_all, stdout};
 use crate::cli::{Outcome, Result};
 use crate::diag::Failure;
-use crate::picture::plot;
+use crate::picture::{heat, plot};
 use crate::scene::Scene;
 use crate::technique::difference::of_light;
-use crate::technique::integrals::{BORDER, BRUTE_FORCE, CELLS, DIRECTIONS, EDGES, INTEGRALS, LOBE, picture};
+use crate::technique::integrals::{BORDER, BRUTE_FORCE, CELLS, DIRECTIONS, EDGES, INTEGRALS, LOBE};
 use crate::technique::rendered::LIGHT;
 use crate::technique::setting::Value;
 use crate::technique::{Executor, Frame, Rendered, Settings, shade};
@@ -114,7 +114,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         let counts = rendered.counts(CELLS).unwrap_or_default();
         let most = counts.iter().copied().max().unwrap_or(0);
         say += &format!("cells: white is {most}\n");
-        let picture = picture::counted(width, height, counts, most);
+        let picture = heat::counts(width, height, counts, most);
         put(cells_sink, &Canvas::Encoded(picture).bytes(ImageFormat::Png)?)?;
     }
     if plot_sink.is_some() {

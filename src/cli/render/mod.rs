@@ -19,12 +19,12 @@ use super::progress::Progress;
 use super::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::picture::sheet::{self, Entry};
-use crate::picture::srgb;
+use crate::picture::{heat, srgb};
 use crate::program::Program;
 use crate::scene::Scene;
 use crate::technique::difference::{Region, difference, of_light};
-use crate::technique::rendered::{CASE, LIGHT, NONE, VALUE};
-use crate::technique::{self, Ability, Executor, Frame, Inputs, Rendered, capture, cases, shade};
+use crate::technique::rendered::{CASE, DEFAULT, LIGHT, NONE, VALUE};
+use crate::technique::{self, Ability, Executor, Frame, Inputs, Rendered, Samples, capture, cases, shade};
 use crate::text::file::shown;
 
 /// Arguments of `umbrage render`.
@@ -48,6 +48,9 @@ pub(super) struct Arguments {
     /// Colour each pixel by the case that was taken, and add a legend
     #[arg(long, conflicts_with = "compare")]
     cases: bool,
+    /// Instead of the light, a layer of counts as a heat map, white where there are most
+    #[arg(long, value_name = "LAYER", conflicts_with_all = ["compare", "cases"])]
+    layer: Option<String>,
     /// Instead of one picture a contact sheet of several techniques, with enlarged parts
     #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = technique_parser(), conflicts_with = "technique",
           hide_possible_values = true)]
@@ -183,11 +186,28 @@ fn draw(arguments: &Arguments, frame: &Frame<'_>, answers: &[Answer<'_>]) -> std
             let taken = rendered.counts(CASE).unwrap_or_default();
             Canvas::Encoded(sheet::coloured(&picture, &cases::legend(table, taken))?)
         }
+        [answer] if arguments.layer.is_some() => Canvas::Encoded(layer(arguments, frame, answer)?),
         [answer] if arguments.compare.is_empty() => Canvas::Linear(shade::picture(frame, &answer.rendered)?),
         _ => Canvas::Encoded(contact(frame, answers)?),
     };
     let format = arguments.output.as_deref().and_then(format_of).unwrap_or(ImageFormat::Png);
     image.bytes(format)
+}
+
+/// A layer of counts as a heat map.
+fn layer(arguments: &Arguments, frame: &Frame<'_>, answer: &Answer<'_>) -> std::result::Result<RgbImage, Failure> {
+    let name = arguments.layer.as_deref().unwrap_or_default();
+    let Some(counts) = answer.rendered.counts(name) else {
+        let with = answer.rendered.layers.iter().filter(|layer| matches!(layer.samples, Samples::Counts(_)));
+        let with: Vec<&str> = with.map(|layer| layer.name).collect();
+        let message = format!("{} has no layer of counts called `{name}`", answer.technique);
+        let error = Diagnostic::error(codes::RENDER, message).help(format!("it has {}", technique::and(&with)));
+        return Err(Failure::bare("", error));
+    };
+    // No surface is no count.
+    let shown: Vec<u32> = counts.iter().map(|count| if *count >= DEFAULT { 0 } else { *count }).collect();
+    let (width, height) = frame.size();
+    Ok(heat::counts(width, height, &shown, shown.iter().copied().max().unwrap_or_default()))
 }
 
 /// A contact sheet. Where the true picture is on it, the others have their error beside the name.

@@ -11,6 +11,7 @@ use super::scalar::{Scalar, Vector, cross, dot, length};
 pub struct Mesh {
     corners: Vec<DVec3>,
     faces: Vec<Vec<usize>>,
+    normals: Vec<DVec3>,
     edges: Vec<Edge>,
     form: Form,
     radius: f64,
@@ -40,7 +41,7 @@ enum Form {
 }
 
 impl Mesh {
-    /// A mesh with these corners, and faces as indices of corners, counter-clockwise as seen from outside. Corners in
+    /// A mesh with these corners, and faces as indices of corners, all counter-clockwise or all clockwise as seen from outside. Corners in
     /// the same place, but for rounding, are one. Faces that are not flat and convex are cut into triangles.
     pub fn new(corners: Vec<DVec3>, faces: &[Vec<usize>]) -> Self {
         let (lo, hi) = corners
@@ -67,8 +68,14 @@ impl Mesh {
                 None => {}
             }
         }
-        let (edges, is_closed) = edges(&flat);
-        let mut mesh = Self { corners, faces: flat, edges, form: Form::Open, radius };
+        let (_, is_closed) = edges(&flat);
+        if is_closed && volume(&corners, &flat) < 0.0 {
+            flat.iter_mut().for_each(|face| face.reverse());
+        }
+        let outline = |face: &Vec<usize>| face.iter().map(|corner| corners[*corner]).collect::<Vec<DVec3>>();
+        let normals = flat.iter().map(|face| normal(&outline(face))).collect();
+        let (edges, _) = edges(&flat);
+        let mut mesh = Self { corners, faces: flat, normals, edges, form: Form::Open, radius };
         if is_closed {
             mesh.form = if mesh.bulges() { Form::Convex } else { Form::Closed };
         }
@@ -83,6 +90,11 @@ impl Mesh {
     /// Its faces, as indices of corners.
     pub fn faces(&self) -> &[Vec<usize>] {
         &self.faces
+    }
+
+    /// The unit normals of its faces.
+    pub fn normals(&self) -> &[DVec3] {
+        &self.normals
     }
 
     /// The edges between two faces.
@@ -105,14 +117,35 @@ impl Mesh {
         self.radius
     }
 
-    /// Returns whether all corners are on the inner side of the plane of every face.
+    /// Returns whether a closed mesh is convex: whether it is one surface without holes that is folded outwards nowhere
+    /// (Tietze's theorem), so that no face has to be compared with all the others.
     fn bulges(&self) -> bool {
-        let used: Vec<DVec3> = self.faces.iter().flatten().map(|corner| self.corners[*corner]).collect();
-        self.faces.iter().all(|face| {
-            let outline: Vec<DVec3> = face.iter().map(|corner| self.corners[*corner]).collect();
-            let normal = normal(&outline);
-            used.iter().all(|corner| normal.dot(*corner - outline[0]) <= 1e-9 * self.radius)
-        })
+        let is_folded_in = |edge: &Edge| {
+            let (normal, from) = (self.normals[edge.own], self.corners[edge.from]);
+            self.faces[edge.other].iter().all(|at| normal.dot(self.corners[*at] - from) <= 1e-9 * self.radius)
+        };
+        let mut used: Vec<usize> = self.faces.iter().flatten().copied().collect();
+        used.sort_unstable();
+        used.dedup();
+        let is_sphere = used.len() + self.faces.len() == self.edges.len() + 2;
+        is_sphere && self.is_connected() && self.edges.iter().all(is_folded_in)
+    }
+
+    /// Returns whether every face can be reached from the first one over edges.
+    fn is_connected(&self) -> bool {
+        let mut beside = vec![Vec::new(); self.faces.len()];
+        for edge in &self.edges {
+            beside[edge.own].push(edge.other);
+            beside[edge.other].push(edge.own);
+        }
+        let (mut reached, mut open, mut count) = (vec![false; self.faces.len()], vec![0], 0);
+        while let Some(face) = open.pop() {
+            if !std::mem::replace(&mut reached[face], true) {
+                count += 1;
+                open.extend(&beside[face]);
+            }
+        }
+        count == self.faces.len()
     }
 
     /// Returns whether a closed mesh, by its corners as seen from a point, holds that point: whether its faces go round
@@ -133,6 +166,16 @@ fn solid_angle([a, b, c]: [Vector<f64>; 3]) -> f64 {
     let volume = dot(a, cross(b, c));
     let below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
     2.0 * libm::atan2(volume, below)
+}
+
+/// The volume that closed faces go round; negative if they look inwards.
+fn volume(corners: &[DVec3], faces: &[Vec<usize>]) -> f64 {
+    let first = corners[faces[0][0]];
+    let part = |face: &Vec<usize>| -> f64 {
+        let at = |index: usize| corners[face[index]] - first;
+        (2..face.len()).map(|index| at(0).dot(at(index - 1).cross(at(index)))).sum()
+    };
+    faces.iter().map(part).sum::<f64>() / 6.0
 }
 
 /// The unit normal of an outline; zero if it has no area.

@@ -15,16 +15,24 @@
 
 mod clip;
 mod cone;
+mod entry;
 mod integral;
+mod lit;
 pub mod mesh;
 mod occluder;
 mod panel;
 mod peel;
+mod picture;
 pub mod point;
+mod sampling;
 mod scalar;
 mod tabulated;
+mod tiles;
 mod viewpoint;
 
+pub use entry::{
+    AREA_RATIO, AREA_SAMPLES, AREA_UNSHADOWED, CLIPS, EXACT, Entry, OVERFLOW, PEEL, PIECES, RADIUS, SAMPLES, SEED,
+};
 pub use occluder::Occluder;
 pub use peel::{Bounds, Work};
 pub use point::{Answer, Peeler, Query, Shape};

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::cone::Cone;
 use super::mesh::Mesh;
 use super::panel::Panel;
-use super::scalar::{Scalar, Vector, area, cross, dot, length, middle, minus, negated, plus, times};
+use super::scalar::{Scalar, Vector, area, cross, dot, length, middle, minus, negated, plus, rounded, times};
 use super::tabulated::Tabulated;
 use super::viewpoint::Viewpoint;
 use crate::diag::Failure;
@@ -177,17 +177,17 @@ impl Silhouettes {
             return polygons(all(), view);
         }
         // The height of the point above each face.
-        let heights: Vec<(T, T)> = all()
-            .map(|face| {
-                let (normal, centre) = (area(&face), middle(&face));
-                (-dot(normal, centre), T::from_f64((T::NOISE * length(centre).max(radius) + blur) * length(normal)))
-            })
-            .collect();
+        let height = |(face, normal): (&Vec<usize>, &DVec3)| {
+            let corner = corners[face[0]];
+            let slack = T::NOISE * length(corner).max(radius) + blur;
+            (-dot(rounded(normal.to_array()), corner), T::from_f64(slack))
+        };
+        let heights: Vec<(T, T)> = mesh.faces().iter().zip(mesh.normals()).map(height).collect();
         let is_front = |face: usize| heights[face].0 > zero;
         if mesh.is_convex() {
             if heights.iter().all(|(height, slack)| *height <= *slack) {
-                let touched = mesh.faces().iter().zip(&heights).filter(|(_, (height, slack))| *height >= -*slack);
-                let planes = touched.map(|(corners, _)| negated(area(&face(corners)))).collect();
+                let touched = mesh.normals().iter().zip(&heights).filter(|(_, (height, slack))| *height >= -*slack);
+                let planes = touched.map(|(normal, _)| rounded((-*normal).to_array())).collect();
                 return Cone::of_planes(planes).map_or(Hidden::All, |cone| Hidden::Cones(vec![cone]));
             }
             let above = light.heights(corners);

@@ -30,7 +30,7 @@ pub struct Query<'a> {
     pub normal: DVec3,
     /// The occluders.
     pub occluders: Cow<'a, [&'a Occluder]>,
-    /// How a glossy surface shapes the light, if that is asked.
+    /// The shape that a glossy surface gives to light, if that is asked.
     pub shape: Option<Shape>,
 }
 

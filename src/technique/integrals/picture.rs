@@ -5,7 +5,6 @@ use std::iter::repeat_n;
 use std::ops::Range;
 
 use glam::DVec3;
-use image::{Rgb, RgbImage};
 use rayon::prelude::*;
 
 use super::cells::{Division, Edge, divide};
@@ -192,16 +191,6 @@ pub fn directions(lobes: &[Lobe], fineness: u32) -> Vec<(DVec3, DVec3)> {
         (direction, lobes.iter().map(|lobe| lobe.value(direction)).sum::<DVec3>() * solid)
     };
     (0..fineness * around).map(direction).collect()
-}
-
-/// A map of counts: black for none, through blue and orange to white for `most`.
-pub fn counted(width: u32, height: u32, counts: &[u32], most: u32) -> RgbImage {
-    RgbImage::from_fn(width, height, |x, y| {
-        let count = counts.get((y * width + x) as usize).copied().unwrap_or(0);
-        let part = f64::from(count) / f64::from(most.max(1));
-        let ramp = |from: f64| ((part * 3.0 - from).clamp(0.0, 1.0) * 255.0).round() as u8;
-        Rgb([ramp(1.0), ramp(1.5), if part < 0.5 { ramp(0.0) / 2 } else { ramp(2.0) }])
-    })
 }
 
 #[cfg(test)]

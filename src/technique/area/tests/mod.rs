@@ -1,6 +1,7 @@
 //! The method against closed forms, against an exact program, and against itself.
 
 mod exact;
+mod pictures;
 mod scenes;
 
 use std::f64::consts::PI;

@@ -13,7 +13,7 @@ pub(super) struct Scene {
     pub(super) normal: Whole,
     /// For each occluder the flat polygons that it consists of.
     pub(super) occluders: Vec<Vec<Vec<Whole>>>,
-    /// What [`Self::occluders`] are to the technique.
+    /// The same as the technique takes them.
     pub(super) bodies: Vec<Occluder>,
 }
 

@@ -1,0 +1,86 @@
+//! Pictures by peeling: every pixel of every tile, behind the occluders that can matter to it.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::lit::Lit;
+use super::peel::Work;
+use super::point::{Answer, Peeler, Query};
+use super::scalar::Scalar;
+use super::tiles::{SIDE, candidates, pixels};
+use crate::diag::Failure;
+use crate::scene::rays::SurfacePoint;
+use crate::technique::Progress;
+
+/// The results for the pixels of a picture, row by row from the top.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Pixels {
+    /// The sum of the form factors of lights, each times its radiance.
+    pub(super) received: Vec<DVec3>,
+    /// The same without occluders.
+    pub(super) unshadowed: Vec<DVec3>,
+    /// The work for all lights together.
+    pub(super) work: Vec<Work>,
+}
+
+impl Pixels {
+    pub(super) fn new(count: usize) -> Self {
+        let none = vec![DVec3::ZERO; count];
+        Self { received: none.clone(), unshadowed: none, work: vec![Work::default(); count] }
+    }
+}
+
+/// The results for a tile: each pixel with its light, with and without occluders, and its work.
+type Tile = Vec<(usize, DVec3, DVec3, Work)>;
+
+/// Computes the light at every pixel.
+///
+/// # Errors
+/// Never for the tables that come with Umbrage.
+pub(super) fn peeled<T: Scalar>(lit: &Lit, progress: &Progress<'_>) -> Result<Pixels, Failure> {
+    let (width, height) = (lit.surfaces.width as usize, lit.surfaces.height as usize);
+    let rows = (0..height.div_ceil(SIDE)).into_par_iter().map_init(Peeler::<T>::new, |peeler, row| {
+        let peeler = peeler.as_mut().map_err(|failure| failure.clone())?;
+        let tiles = (0..width.div_ceil(SIDE)).map(|column| tile(lit, peeler, column, row));
+        let tiles = tiles.collect::<Result<Vec<Tile>, Failure>>()?;
+        progress((height - row * SIDE).min(SIDE) as u64);
+        Ok(tiles)
+    });
+    let mut all = Pixels::new(width * height);
+    for (pixel, received, unshadowed, work) in
+        rows.collect::<Result<Vec<_>, Failure>>()?.into_iter().flatten().flatten()
+    {
+        (all.received[pixel], all.unshadowed[pixel], all.work[pixel]) = (received, unshadowed, work);
+    }
+    Ok(all)
+}
+
+fn tile<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, column: usize, row: usize) -> Result<Tile, Failure> {
+    let seen: Vec<(usize, &SurfacePoint)> = pixels(lit, column, row).collect();
+    let mut tile: Tile = seen.iter().map(|(pixel, _)| (*pixel, DVec3::ZERO, DVec3::ZERO, Work::default())).collect();
+    if seen.is_empty() {
+        return Ok(tile);
+    }
+    for light in &lit.lights {
+        let occluders = candidates(lit, light, seen.iter().map(|(_, point)| point.place));
+        let query = |(_, point): &(usize, &SurfacePoint)| Query {
+            light: &light.corners,
+            two_sided: light.two_sided,
+            point: point.place,
+            blur: lit.blur,
+            normal: point.smooth_normal,
+            occluders: occluders.as_slice().into(),
+            shape: None,
+        };
+        let answers: Vec<Answer> = peeler.answers(seen.iter().map(query))?;
+        for ((_, received, unshadowed, work), answer) in tile.iter_mut().zip(answers) {
+            let colour = DVec3::from_array(light.colour);
+            *received += answer.form_factor * colour;
+            *unshadowed += answer.form_factor_unshadowed * colour;
+            work.pieces += answer.work.pieces;
+            work.clips += answer.work.clips;
+            work.overflow |= answer.work.overflow;
+        }
+    }
+    Ok(tile)
+}

@@ -1,0 +1,183 @@
+//! The estimators that peeling is compared with: rays towards stratified places on each light.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::lit::Lit;
+use crate::scene::light::Polygon;
+use crate::scene::rays::{Rays, SurfacePoint, Tests};
+use crate::technique::Progress;
+
+/// A stream of random numbers for a pixel and a light, the same on every machine.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stream(u32);
+
+/// The generator PCG RXS-M-XS with 32 bits (O'Neill 2014).
+fn pcg(v: u32) -> u32 {
+    let state = v.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
+}
+
+impl Stream {
+    /// The stream of a pixel and a light in a frame.
+    pub(super) fn new([x, y]: [u32; 2], light: u32, frame: u32) -> Self {
+        Self(pcg(x.wrapping_add(pcg(y.wrapping_add(pcg(light.wrapping_add(pcg(frame))))))))
+    }
+
+    /// The next number of [0, 1).
+    pub(super) fn uniform(&mut self) -> f64 {
+        self.0 = pcg(self.0);
+        f64::from(self.0 >> 8) / f64::from(1 << 24)
+    }
+}
+
+/// Sums over the samples of a pixel: with and without occluders, for each channel.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Estimate {
+    pub(super) shadowed: DVec3,
+    pub(super) unshadowed: DVec3,
+}
+
+/// Estimates the light at every pixel from some rays to each light.
+pub(super) fn estimates(lit: &Lit, rays: &Rays, samples: u32, frame: u32, progress: &Progress<'_>) -> Vec<Estimate> {
+    let width = lit.surfaces.width as usize;
+    let row = |(y, row): (usize, &[Option<SurfacePoint>])| {
+        let tests = rays.tests(None);
+        let pixel = |(x, point): (usize, &Option<SurfacePoint>)| {
+            let Some(point) = point else { return Estimate::default() };
+            let mut sum = Estimate::default();
+            for (index, light) in lit.lights.iter().enumerate() {
+                let mut stream = Stream::new([x as u32, y as u32], index as u32, frame);
+                let (with, without) = at_point(&tests, point, light, samples, &mut stream);
+                let colour = DVec3::from_array(light.colour);
+                sum.shadowed += colour * with;
+                sum.unshadowed += colour * without;
+            }
+            sum
+        };
+        let row: Vec<Estimate> = row.iter().enumerate().map(pixel).collect();
+        progress(1);
+        row
+    };
+    lit.surfaces.points.par_chunks(width.max(1)).enumerate().flat_map_iter(row).collect()
+}
+
+/// The form factor of a light, with and without occluders, by places in a grid of strata.
+fn at_point(tests: &Tests<'_>, point: &SurfacePoint, light: &Polygon, samples: u32, stream: &mut Stream) -> (f64, f64) {
+    let area = light.area();
+    let columns = f64::from(samples).sqrt().ceil() as u32;
+    let (mut with, mut without) = (0.0, 0.0);
+    for index in 0..samples {
+        // Rows of strata; the last one has fewer and wider ones.
+        let (row, rows) = (index / columns, samples.div_ceil(columns));
+        let across = if row + 1 == rows { samples - row * columns } else { columns };
+        let share = f64::from(index % columns) + stream.uniform();
+        let at = DVec2::new(share / f64::from(across), (f64::from(row) + stream.uniform()) / f64::from(rows));
+        // A row with fewer strata has less weight for each of its samples.
+        let weight = 1.0 / (f64::from(across) * f64::from(rows));
+        let place = on_polygon(light, area, at);
+        let towards = place - point.place;
+        let square = towards.length_squared();
+        let cosine = point.smooth_normal.dot(towards);
+        let emitted = -light.normal().dot(towards);
+        let emitted = if light.two_sided { emitted.abs() } else { emitted };
+        if cosine <= 0.0 || emitted <= 0.0 {
+            continue;
+        }
+        let part = weight * area * cosine * emitted / (std::f64::consts::PI * square * square);
+        without += part;
+        if tests.is_open(point.place, place) {
+            with += part;
+        }
+    }
+    (with, without)
+}
+
+/// A place on a polygon, evenly distributed for numbers that are.
+fn on_polygon(light: &Polygon, area: f64, DVec2 { x, y }: DVec2) -> DVec3 {
+    // A fan of triangles, chosen by their areas along x, which is then as evenly distributed within the one chosen.
+    let first = light.corners[0];
+    let mut rest = x * area;
+    let last = light.corners.len() - 2;
+    for (index, pair) in light.corners[1..].windows(2).enumerate() {
+        let (u, v) = (pair[0] - first, pair[1] - first);
+        let own = 0.5 * u.cross(v).length();
+        if rest <= own || index + 1 == last {
+            let (s, t) = ((rest / own).clamp(0.0, 1.0).sqrt(), y);
+            return first + s * ((1.0 - t) * u + t * v);
+        }
+        rest -= own;
+    }
+    first
+}
+
+/// Sizes of the filter of the ratio estimator.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Filter {
+    /// Pixels to each side.
+    pub(super) radius: u32,
+}
+
+/// A picture without noise: the true light without occluders times the filtered ratio of the two estimates.
+///
+/// Shadowed and unshadowed sums are filtered alike and then divided, over pixels whose surfaces are close and
+/// look the same way (Heitz, Hill and McGuire, Combining Analytic Direct Illumination and Stochastic Shadows, I3D 2018).
+pub(super) fn ratio(lit: &Lit, estimates: &[Estimate], unshadowed: &[DVec3], filter: Filter) -> Vec<DVec3> {
+    let (width, height) = (lit.surfaces.width as i64, lit.surfaces.height as i64);
+    let radius = i64::from(filter.radius);
+    let deviation = (f64::from(filter.radius) / 2.0).max(1e-3);
+    let points = &lit.surfaces.points;
+    let filtered = |pixel: usize| {
+        let Some(own) = &points[pixel] else { return DVec3::ZERO };
+        let (x, y) = (pixel as i64 % width, pixel as i64 / width);
+        let mut sum = Estimate::default();
+        for v in (y - radius).max(0)..=(y + radius).min(height - 1) {
+            for u in (x - radius).max(0)..=(x + radius).min(width - 1) {
+                let index = (v * width + u) as usize;
+                let Some(other) = &points[index] else { continue };
+                let apart = ((u - x) * (u - x) + (v - y) * (v - y)) as f64 / (2.0 * deviation * deviation);
+                let off =
+                    own.normal.dot(other.place - own.place).abs() / (1e-2 * (1e-9 + own.place.distance(other.place)));
+                let turned = own.smooth_normal.dot(other.smooth_normal).max(0.0).powi(32);
+                let weight = libm::exp(-apart - off.min(50.0)) * turned;
+                sum.shadowed += weight * estimates[index].shadowed;
+                sum.unshadowed += weight * estimates[index].unshadowed;
+            }
+        }
+        let share = |channel: usize| match sum.unshadowed[channel] {
+            whole if whole > 0.0 => sum.shadowed[channel] / whole,
+            _ => 0.0,
+        };
+        unshadowed[pixel] * DVec3::new(share(0), share(1), share(2))
+    };
+    (0..points.len()).into_par_iter().map(filtered).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stream_is_the_published_one() {
+        let values = [(0, 0x07bb_2fe2), (1, 0xa8be_ea3c), (2, 0x7a7e_cc88), (12345, 0xf45e_ad0e)];
+        for (state, expected) in values {
+            assert_eq!(pcg(state), expected);
+        }
+        let mut stream = Stream::new([3, 5], 1, 2);
+        assert_eq!(stream.0, pcg(3 + pcg(5_u32.wrapping_add(pcg(1_u32.wrapping_add(pcg(2)))))));
+        assert!((0..1000).all(|_| (0.0..1.0).contains(&stream.uniform())));
+    }
+
+    #[test]
+    fn places_on_a_polygon_are_evenly_distributed() {
+        let corners = vec![DVec3::ZERO, DVec3::X * 2.0, DVec3::new(2.0, 1.0, 0.0), DVec3::new(0.0, 3.0, 0.0)];
+        let light = Polygon { corners, two_sided: false, colour: [1.0; 3] };
+        let count = 200;
+        let share = |index: u32| (f64::from(index) + 0.5) / f64::from(count);
+        let at = |index: u32| on_polygon(&light, light.area(), DVec2::new(share(index / count), share(index % count)));
+        let mean = (0..count * count).map(at).sum::<DVec3>() / f64::from(count * count);
+        // The centroid of the trapezium.
+        assert!((mean - DVec3::new(5.0 / 6.0, 13.0 / 12.0, 0.0)).length() < 1e-3, "{mean}");
+    }
+}
