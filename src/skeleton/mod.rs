@@ -33,17 +33,28 @@
 //! **Integrals** (`integrals`) is a whole compute shader, `light`. Its host says in
 //! constants `BALLS`, `PLATES`, `CORNERS` and `LOBES` how many of each there are, and adds
 //! the modules of the functions that it calls.
+//!
+//! **Area lights** (`peel`) is a whole compute shader, `area_light`, around modules of the tables
+//! `clip_step`, `box_silhouette` and `edge_silhouette` and of the functions `term` and `small` of
+//! `edge_integral`.
 
 /// The names of the skeletons.
-pub const NAMES: [&str; 7] = ["hard", "pcf", "smsr", "rsmss", "rpcf", "casefree", "integrals"];
+pub const NAMES: [&str; 8] = ["hard", "pcf", "smsr", "rsmss", "rpcf", "casefree", "integrals", "peel"];
 
 /// The text around the modules of a technique's tables, as exact as the technique was published.
 pub fn wgsl(name: &str) -> Option<String> {
-    if name == "integrals" { Some(INTEGRALS.to_owned()) } else { Revectorised::EXACT.wgsl(name) }
+    match name {
+        "integrals" => Some(INTEGRALS.to_owned()),
+        "peel" => Some(AREA.to_owned()),
+        _ => Revectorised::EXACT.wgsl(name),
+    }
 }
 
 /// The directions at a surface, divided and added up.
 pub(crate) const INTEGRALS: &str = include_str!("integrals.wgsl");
+
+/// Polygons of light at surfaces, cut and added up.
+pub(crate) const AREA: &str = include_str!("area.wgsl");
 
 /// The reads of a shadow map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -116,7 +127,7 @@ mod tests {
 
     #[test]
     fn every_skeleton_of_a_picture_is_whole_with_its_table() {
-        for name in NAMES.into_iter().filter(|name| *name != "integrals") {
+        for name in NAMES.into_iter().filter(|name| !["integrals", "peel"].contains(name)) {
             let table = match name {
                 "smsr" => Some("tables/smsr.ron"),
                 "rsmss" | "rpcf" => Some("tables/rsmss.ron"),

@@ -4,10 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+#[cfg(feature = "gpu")]
+use super::gpu::Peeling;
 use super::lit::Lit;
 use super::picture::{Pixels, peeled};
 use super::sampling::{Filter, estimates, ratio};
 use crate::diag::Failure;
+#[cfg(feature = "gpu")]
+use crate::gpu::timing::Stopwatch;
 use crate::scene::light::Lights;
 use crate::scene::rays::Rays;
 #[cfg(feature = "gpu")]
@@ -15,7 +19,7 @@ use crate::technique::prepared::{Detail, Pass};
 use crate::technique::rendered::LIGHT;
 use crate::technique::setting::{Range, Value};
 use crate::technique::tables::{BOX_SILHOUETTE, BuiltIn, CLIP_STEP, EDGE_INTEGRAL, EDGE_SILHOUETTE, HORIZON_CLIP};
-use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
+use crate::technique::{Ability, Executor, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
 /// Rays to each light.
 pub const SAMPLES: Setting = Setting {
@@ -129,7 +133,7 @@ impl Technique for Entry {
     }
 
     fn needs_device(&self) -> bool {
-        false
+        self.0 == Way::Peel
     }
 
     fn prepare<'s>(&self, frame: &Frame<'s>) -> Result<Box<dyn Prepared<'s> + 's>, Failure> {
@@ -137,9 +141,21 @@ impl Technique for Entry {
     }
 }
 
+/// The machine that peels.
+enum Machine<'s> {
+    /// Plain Rust, with the tables looked up or by the batch interpreter.
+    Cpu,
+    #[cfg(feature = "gpu")]
+    Gpu(Box<Peeling<'s>>),
+    #[cfg(not(feature = "gpu"))]
+    #[expect(dead_code, reason = "keeps the lifetime in builds without GPU support")]
+    Never(&'s std::convert::Infallible),
+}
+
 /// A frame under polygonal lights.
-struct Area {
+struct Area<'s> {
     way: Way,
+    machine: Machine<'s>,
     lit: Arc<Lit>,
     rays: Arc<Rays>,
     samples: u32,
@@ -147,10 +163,16 @@ struct Area {
     filter: Filter,
 }
 
-impl Area {
-    fn new(way: Way, frame: &Frame<'_>) -> Result<Self, Failure> {
+impl<'s> Area<'s> {
+    fn new(way: Way, frame: &Frame<'s>) -> Result<Self, Failure> {
+        let machine = match frame.on {
+            #[cfg(feature = "gpu")]
+            Executor::Gpu(gpu) if way == Way::Peel => Machine::Gpu(Box::new(Peeling::new(gpu)?)),
+            _ => Machine::Cpu,
+        };
         Ok(Self {
             way,
+            machine,
             lit: Lit::of(frame, Entry(way).name())?,
             rays: Arc::clone(&frame.rays),
             samples: frame.settings.whole(&SAMPLES),
@@ -163,7 +185,17 @@ impl Area {
         let lit = &*self.lit;
         let sampled = |progress: &Progress<'_>| estimates(lit, &self.rays, self.samples, self.seed, progress);
         match self.way {
-            Way::Peel => peeled::<f32>(lit, progress),
+            Way::Peel => match &self.machine {
+                Machine::Cpu => peeled::<f32>(lit, progress),
+                #[cfg(feature = "gpu")]
+                Machine::Gpu(peeling) => {
+                    let pixels = peeling.light(lit, &peeling.place(lit)?);
+                    progress(u64::from(lit.surfaces.height));
+                    pixels
+                }
+                #[cfg(not(feature = "gpu"))]
+                Machine::Never(never) => match **never {},
+            },
             Way::Exact => peeled::<f64>(lit, progress),
             Way::Samples => {
                 let received = sampled(progress).into_iter().map(|estimate| estimate.shadowed).collect();
@@ -186,7 +218,7 @@ impl Area {
     }
 }
 
-impl<'s> Prepared<'s> for Area {
+impl<'s> Prepared<'s> for Area<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
         let pixels = self.pixels(progress)?;
         let points = self.lit.surfaces.points.iter();
@@ -210,6 +242,13 @@ impl<'s> Prepared<'s> for Area {
     #[cfg(feature = "gpu")]
     fn passes(&mut self, _: Detail) -> Result<Vec<Pass<'_>>, Failure> {
         let own = &*self;
-        Ok(vec![Pass::on_cpu(Entry(own.way).name(), "light", move || own.pixels(&|_| {}).map(drop))])
+        let name = Entry(own.way).name();
+        Ok(vec![match &own.machine {
+            Machine::Cpu => Pass::on_cpu(name, "light", move || own.pixels(&|_| {}).map(drop)),
+            Machine::Gpu(peeling) => {
+                let placed = peeling.place(&own.lit)?;
+                Pass::new(name, "compute", None, move |stopwatch: &Stopwatch<'_>| peeling.time(&placed, stopwatch))
+            }
+        }])
     }
 }

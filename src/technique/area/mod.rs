@@ -16,6 +16,8 @@
 mod clip;
 mod cone;
 mod entry;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod integral;
 mod lit;
 pub mod mesh;

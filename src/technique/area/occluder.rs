@@ -24,8 +24,9 @@ pub struct Occluder {
     radius: f64,
 }
 
+/// The form of an occluder.
 #[derive(Debug, Clone, PartialEq)]
-enum Form {
+pub(super) enum Form {
     Polygon(Vec<DVec3>),
     Box { centre: DVec3, halves: [DVec3; 3] },
     Mesh(Mesh),
@@ -72,6 +73,12 @@ impl Occluder {
     pub fn mesh(mesh: Mesh) -> Self {
         let (centre, radius) = around(mesh.corners());
         Self { form: Form::Mesh(mesh), centre, radius }
+    }
+
+    /// Its form.
+    #[cfg(feature = "gpu")]
+    pub(super) fn form(&self) -> &Form {
+        &self.form
     }
 
     /// A sphere that holds all of it: its centre and its radius.

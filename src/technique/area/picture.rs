@@ -4,6 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::lit::Lit;
+use super::occluder::Occluder;
 use super::peel::Work;
 use super::point::{Answer, Peeler, Query};
 use super::scalar::Scalar;
@@ -57,12 +58,18 @@ pub(super) fn peeled<T: Scalar>(lit: &Lit, progress: &Progress<'_>) -> Result<Pi
 
 fn tile<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, column: usize, row: usize) -> Result<Tile, Failure> {
     let seen: Vec<(usize, &SurfacePoint)> = pixels(lit, column, row).collect();
+    together(lit, peeler, &seen)
+}
+
+/// Pixels that are near to each other.
+fn together<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, seen: &[(usize, &SurfacePoint)]) -> Result<Tile, Failure> {
     let mut tile: Tile = seen.iter().map(|(pixel, _)| (*pixel, DVec3::ZERO, DVec3::ZERO, Work::default())).collect();
     if seen.is_empty() {
         return Ok(tile);
     }
     for light in &lit.lights {
         let occluders = candidates(lit, light, seen.iter().map(|(_, point)| point.place));
+        let occluders: Vec<&Occluder> = occluders.into_iter().map(|index| &lit.occluders[index]).collect();
         let query = |(_, point): &(usize, &SurfacePoint)| Query {
             light: &light.corners,
             two_sided: light.two_sided,
@@ -83,4 +90,22 @@ fn tile<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, column: usize, row: usize)
         }
     }
     Ok(tile)
+}
+
+/// Computes the light at some pixels again, one by one; that they overflow stays.
+///
+/// # Errors
+/// Never for the tables that come with Umbrage.
+#[cfg(feature = "gpu")]
+pub(super) fn peeled_at<T: Scalar>(lit: &Lit, some: &[usize], all: &mut Pixels) -> Result<(), Failure> {
+    let one = |peeler: &mut Result<Peeler<T>, Failure>, pixel: &usize| {
+        let peeler = peeler.as_mut().map_err(|failure| failure.clone())?;
+        let point = lit.surfaces.points[*pixel].as_ref().map(|point| (*pixel, point));
+        together(lit, peeler, point.as_slice())
+    };
+    let found = some.par_iter().map_init(Peeler::<T>::new, one).collect::<Result<Vec<Tile>, Failure>>()?;
+    for (pixel, received, _, work) in found.into_iter().flatten() {
+        (all.received[pixel], all.work[pixel]) = (received, Work { overflow: true, ..work });
+    }
+    Ok(())
 }

@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::lit::Lit;
-use super::occluder::Occluder;
 use crate::scene::light::Polygon;
 use crate::scene::rays::SurfacePoint;
 
@@ -22,14 +21,11 @@ pub(super) fn pixels(lit: &Lit, column: usize, row: usize) -> impl Iterator<Item
     all.filter_map(|pixel| Some((pixel, lit.surfaces.points[pixel].as_ref()?)))
 }
 
-/// The occluders that can lie between some points and a light.
-pub(super) fn candidates<'l>(
-    lit: &'l Lit,
-    light: &Polygon,
-    points: impl Iterator<Item = DVec3> + Clone,
-) -> Vec<&'l Occluder> {
+/// The indices of the occluders that can lie between some points and a light.
+pub(super) fn candidates(lit: &Lit, light: &Polygon, points: impl Iterator<Item = DVec3> + Clone) -> Vec<usize> {
     let (from, to) = (ball(points), ball(light.corners.iter().copied()));
-    lit.occluders.iter().filter(|occluder| between(from, to, occluder.sphere())).collect()
+    let meets = |index: &usize| between(from, to, lit.occluders[*index].sphere());
+    (0..lit.occluders.len()).filter(meets).collect()
 }
 
 /// A ball around places.
