@@ -1,7 +1,5 @@
 //! One evaluation, with every intermediate value kept.
 
-use std::collections::HashMap;
-
 use crate::diag::Span;
 use crate::program::{Cond, CondId, ExprId, InputId, Node, Program, Real, Value};
 
@@ -12,15 +10,21 @@ pub(super) struct Trace<'p, T> {
     point: &'p [Value],
     /// Every expression that was evaluated, operands before what they are operands of.
     pub(super) order: Vec<ExprId>,
-    values: HashMap<ExprId, T>,
+    /// By expression of the pool.
+    values: Vec<Option<T>>,
     /// The result.
     pub(super) result: Vec<T>,
 }
 
 impl<'p, T: Real> Trace<'p, T> {
+    /// Nothing evaluated yet.
+    fn at(program: &'p Program, point: &'p [Value]) -> Self {
+        Self { program, point, order: Vec::new(), values: vec![None; program.pool.len()], result: Vec::new() }
+    }
+
     /// Evaluates a program at a point that has a value for every input.
     pub(super) fn run(program: &'p Program, point: &'p [Value]) -> Self {
-        let mut trace = Self { program, point, order: Vec::new(), values: HashMap::new(), result: Vec::new() };
+        let mut trace = Self::at(program, point);
         let row = program.rows.iter().find(|row| trace.holds(row.guard));
         let line = row.and_then(|row| row.lines.iter().find(|line| trace.holds(line.condition)));
         let values = line.map_or(&program.default, |line| &line.values);
@@ -30,10 +34,10 @@ impl<'p, T: Real> Trace<'p, T> {
 
     /// The part of the table that comes to an expression first: a guard, the condition of a line, or a line.
     pub(super) fn place(program: &'p Program, point: &'p [Value], expr: ExprId) -> Option<Span> {
-        let mut trace = Self { program, point, order: Vec::new(), values: HashMap::new(), result: Vec::new() };
+        let mut trace = Self::at(program, point);
         for row in &program.rows {
             let taken = trace.holds(row.guard);
-            if trace.values.contains_key(&expr) {
+            if trace.value(expr).is_some() {
                 return Some(row.guard_span);
             }
             if !taken {
@@ -41,7 +45,7 @@ impl<'p, T: Real> Trace<'p, T> {
             }
             for line in &row.lines {
                 let applies = trace.holds(line.condition);
-                if trace.values.contains_key(&expr) {
+                if trace.value(expr).is_some() {
                     return line.condition_span.or(Some(line.span));
                 }
                 if applies {
@@ -55,19 +59,19 @@ impl<'p, T: Real> Trace<'p, T> {
 
     /// The value of one expression at a point, whether or not the program evaluates it there.
     pub(super) fn of(program: &'p Program, point: &'p [Value], expr: ExprId) -> T {
-        let mut trace = Self { program, point, order: Vec::new(), values: HashMap::new(), result: Vec::new() };
+        let mut trace = Self::at(program, point);
         trace.number(expr)
     }
 
     /// Returns whether a condition holds at a point.
     pub(super) fn condition(program: &'p Program, point: &'p [Value], condition: CondId) -> bool {
-        let mut trace = Self { program, point, order: Vec::new(), values: HashMap::new(), result: Vec::new() };
+        let mut trace = Self::at(program, point);
         trace.holds(condition)
     }
 
     /// The value of an expression, if it was evaluated.
     pub(super) fn value(&self, expr: ExprId) -> Option<T> {
-        self.values.get(&expr).copied()
+        self.values[expr.index()]
     }
 
     fn holds(&mut self, condition: CondId) -> bool {
@@ -103,8 +107,8 @@ impl<'p, T: Real> Trace<'p, T> {
     }
 
     fn number(&mut self, expr: ExprId) -> T {
-        if let Some(known) = self.values.get(&expr) {
-            return *known;
+        if let Some(known) = self.value(expr) {
+            return known;
         }
         let value = match self.program.pool.node(expr) {
             Node::Const(number) => T::from_f64(number.get()),
@@ -128,7 +132,7 @@ impl<'p, T: Real> Trace<'p, T> {
                 }
             }
         };
-        self.values.insert(expr, value);
+        self.values[expr.index()] = Some(value);
         self.order.push(expr);
         value
     }

@@ -123,7 +123,8 @@ impl Zero {
 
 /// Places where a function is zero or changes its sign without a jump.
 fn crossings(lo: f64, hi: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
-    let place = |i: usize| lo + (hi - lo) * i as f64 / POSITIONS as f64;
+    // The last position is the end itself, whatever its sum is rounded to.
+    let place = |i: usize| if i == POSITIONS { hi } else { lo + (hi - lo) * i as f64 / POSITIONS as f64 };
     let values: Vec<f64> = (0..=POSITIONS).map(|i| f(place(i))).collect();
     let mut found: Vec<f64> = (0..=POSITIONS).filter(|i| values[*i] == 0.0).map(place).collect();
     for i in 0..POSITIONS {
