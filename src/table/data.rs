@@ -6,9 +6,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::MAX_BYTES;
+use super::library::Library;
 use crate::diag::{Diagnostic, Failure, Source, Span, Spanned, codes};
-use crate::text::file::{read_text, shown};
+use crate::text::file::shown;
 use crate::text::reach::{OutOfReach, beside};
 
 /// Most numbers of a file.
@@ -24,7 +24,7 @@ pub struct DataFile {
 }
 
 /// Reads the file that a table names at a place.
-pub(super) fn file(table: &Arc<Source>, path: &Spanned<String>) -> Result<DataFile, Failure> {
+pub(super) fn file(table: &Arc<Source>, path: &Spanned<String>, library: Library) -> Result<DataFile, Failure> {
     let error = |message: String| Diagnostic::error(codes::DATA_FILE, message).at(path.span, "named here");
     let fail = |diagnostic| Failure::new(table.clone(), diagnostic);
     let folder = Path::new(&table.name).parent().unwrap_or(Path::new(""));
@@ -33,7 +33,7 @@ pub(super) fn file(table: &Arc<Source>, path: &Spanned<String>) -> Result<DataFi
         fail(error(message).help(OutOfReach::HELP))
     })?;
     let name = shown(&place);
-    let text = read_text(&place, MAX_BYTES).map_err(|failure| {
+    let text = library.read(&place).map_err(|failure| {
         let reason = failure.diagnostics.first().map_or(String::new(), |d| d.message.clone());
         fail(error(format!("the data in `{name}` {reason}")).help("paths are relative to the file that names them"))
     })?;

@@ -4,9 +4,10 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{ConstantValue, MAX_BYTES, Table, data, names, read};
+use super::library::Library;
+use super::{ConstantValue, Table, data, names, read};
 use crate::diag::{Diagnostic, Failure, Source, codes};
-use crate::text::file::{read_text, shown};
+use crate::text::file::shown;
 use crate::text::reach::{OutOfReach, beside, plain};
 
 /// Most tables in a chain of imports.
@@ -16,17 +17,22 @@ const MAX_CHAIN: usize = 8;
 type Known = HashMap<PathBuf, (Arc<Table>, usize)>;
 
 /// Reads what a table imports, each file once. A mistake in an imported table is reported there.
-pub(super) fn resolve(table: Table) -> Result<Table, Failure> {
+pub(super) fn resolve(table: Table, library: Library) -> Result<Table, Failure> {
     let own = plain(Path::new(&table.source.name));
-    Ok(follow(table, &[own], &mut Known::new())?.0)
+    Ok(follow(table, &[own], &mut Known::new(), library)?.0)
 }
 
 /// Reads what a table at the end of a chain of imports imports, and counts the tables of the longest chain from it on.
-fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known) -> Result<(Table, usize), Failure> {
+fn follow(
+    mut table: Table,
+    chain: &[PathBuf],
+    known: &mut Known,
+    library: Library,
+) -> Result<(Table, usize), Failure> {
     let source = table.source.clone();
     for constant in &mut table.constants {
         if let ConstantValue::File(path, read) = &mut constant.value {
-            *read = Some(Arc::new(data::file(&source, path)?));
+            *read = Some(Arc::new(data::file(&source, path, library)?));
         }
     }
     let fail = |diagnostic| Failure::new(source.clone(), diagnostic);
@@ -64,7 +70,7 @@ fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known) -> Result<(Tab
             longest = longest.max(1 + length);
             continue;
         }
-        let text = read_text(&path, MAX_BYTES).map_err(|failure| {
+        let text = library.read(&path).map_err(|failure| {
             let reason = failure.diagnostics.first().map_or(String::new(), |d| d.message.clone());
             fail(
                 error(format!("the imported table `{name}` {reason}"), "imported here")
@@ -74,7 +80,7 @@ fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known) -> Result<(Tab
         let imported = Source::new(&*name, text);
         let read = read::table(&imported).map_err(|diagnostics| Failure { source: imported, diagnostics })?;
         let chain: Vec<PathBuf> = chain.iter().chain([&path]).cloned().collect();
-        let (read, length) = follow(read, &chain, known)?;
+        let (read, length) = follow(read, &chain, known, library)?;
         let read = Arc::new(read);
         known.insert(path, (read.clone(), length));
         import.table = Some(read);

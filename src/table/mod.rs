@@ -13,6 +13,7 @@ pub mod expr;
 mod functions;
 mod imports;
 pub(crate) mod lex;
+mod library;
 pub(crate) mod names;
 mod output;
 pub(crate) mod parse;
@@ -25,6 +26,7 @@ use std::sync::Arc;
 use crate::diag::{Diagnostic, Failure, Source, Span, Spanned};
 use crate::text::file::{read_text, shown};
 use expr::Expr;
+use library::Library;
 
 pub use claims::Claim;
 pub use data::DataFile;
@@ -382,7 +384,22 @@ impl Table {
     /// assert!(failure.to_string().contains("mine.ron:1:"));
     /// ```
     pub fn parse(source: Arc<Source>) -> Result<Self, Failure> {
-        imports::resolve(read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })?)
+        Self::found(source, Library::Disk)
+    }
+
+    /// Reads a table that is part of this program, as are the texts that it names: each with its path.
+    ///
+    /// # Errors
+    /// When the text is not a well-formed table, or names something else.
+    pub(crate) fn parse_among(
+        source: Arc<Source>,
+        texts: &'static [(&'static str, &'static str)],
+    ) -> Result<Self, Failure> {
+        Self::found(source, Library::Texts(texts))
+    }
+
+    fn found(source: Arc<Source>, library: Library) -> Result<Self, Failure> {
+        imports::resolve(read::table(&source).map_err(|diagnostics| Failure { source, diagnostics })?, library)
     }
 
     /// Checks that a text is a table, as far as that can be said without reading what it imports.

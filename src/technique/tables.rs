@@ -1,4 +1,4 @@
-//! The tables that come with Umbrage: one list, each read at most once in a process.
+//! The tables that come with Umbrage: one list, each read at most once in a process, whatever directory that runs in.
 
 use std::sync::OnceLock;
 
@@ -12,41 +12,66 @@ pub struct BuiltIn {
     /// The table's name.
     pub name: &'static str,
     path: &'static str,
-    text: &'static str,
     programs: OnceLock<Result<Vec<Program>, Failure>>,
 }
 
-/// A built-in table by the stem of its file, which is the table's name.
+/// The built-in tables by the stems of their files, which are the tables' names, after the files of data beside them.
 macro_rules! built_in {
-    ($name:literal) => {
-        BuiltIn::new($name, concat!("tables/", $name, ".ron"), include_str!(concat!("../../tables/", $name, ".ron")))
+    ([$($data:literal),*] $($(#[$doc:meta])* $table:ident = $name:literal;)*) => {
+        $($(#[$doc])* pub static $table: BuiltIn = BuiltIn::new($name, concat!("tables/", $name, ".ron"));)*
+
+        /// Every table that comes with Umbrage.
+        pub static ALL: &[&BuiltIn] = &[$(&$table),*];
+
+        /// The text of each of them, and of what they name, by path.
+        static TEXTS: &[(&str, &str)] = &[
+            $((concat!("tables/", $name, ".ron"), include_str!(concat!("../../tables/", $name, ".ron"))),)*
+            $((concat!("tables/", $data), include_str!(concat!("../../tables/", $data))),)*
+        ];
     };
 }
 
-/// Silhouette revectorisation.
-pub static SMSR: BuiltIn = built_in!("smsr");
-/// Revectorised soft silhouettes.
-pub static RSMSS: BuiltIn = built_in!("rsmss");
-/// Moments of directions over pieces of the sphere.
-pub static DOUBLE_PRODUCT: BuiltIn = built_in!("double_product");
-/// Linear approximations of spherical Gaussians.
-pub static SPHERICAL_GAUSSIAN: BuiltIn = built_in!("spherical_gaussian");
-/// The part of a quadrilateral above the horizon.
-pub static HORIZON_CLIP: BuiltIn = built_in!("horizon_clip");
-/// The points that an edge adds to a clipped polygon.
-pub static CLIP_STEP: BuiltIn = built_in!("clip_step");
-/// The edges of a mesh that belong to its silhouette.
-pub static EDGE_SILHOUETTE: BuiltIn = built_in!("edge_silhouette");
-/// The silhouettes of a box.
-pub static BOX_SILHOUETTE: BuiltIn = built_in!("box_silhouette");
-/// The light that arrives from a polygon, edge by edge.
-pub static EDGE_INTEGRAL: BuiltIn = built_in!("edge_integral");
-/// Form factors that have closed forms.
-pub static CLOSED_FORMS: BuiltIn = built_in!("closed_forms");
+built_in! {
+    ["shade_g20.csv"]
+    /// Silhouette revectorisation.
+    SMSR = "smsr";
+    /// Revectorised soft silhouettes.
+    RSMSS = "rsmss";
+    /// Moments of directions over pieces of the sphere.
+    DOUBLE_PRODUCT = "double_product";
+    /// Linear approximations of spherical Gaussians.
+    SPHERICAL_GAUSSIAN = "spherical_gaussian";
+    /// The part of a quadrilateral above the horizon.
+    HORIZON_CLIP = "horizon_clip";
+    /// The points that an edge adds to a clipped polygon.
+    CLIP_STEP = "clip_step";
+    /// The edges of a mesh that belong to its silhouette.
+    EDGE_SILHOUETTE = "edge_silhouette";
+    /// The silhouettes of a box.
+    BOX_SILHOUETTE = "box_silhouette";
+    /// The light that arrives from a polygon, edge by edge.
+    EDGE_INTEGRAL = "edge_integral";
+    /// Form factors that have closed forms.
+    CLOSED_FORMS = "closed_forms";
+    /// Choices of convolution shadows.
+    POLICIES = "policies";
+    /// Cases of a slab.
+    SLAB = "slab";
+    /// Points spread evenly along ellipses.
+    ELLIPSE = "ellipse";
+    /// Unit kernels and their phases.
+    KERNELS = "kernels";
+    /// Distant Gaussian lights as blurs, and their shadows in closed form.
+    LIGHT_KERNEL = "light_kernel";
+    /// Light in a slab of matter.
+    SHADE = "shade";
+    /// Patterns of space.
+    NOISE = "noise";
+}
 
 impl BuiltIn {
-    const fn new(name: &'static str, path: &'static str, text: &'static str) -> Self {
-        Self { name, path, text, programs: OnceLock::new() }
+    const fn new(name: &'static str, path: &'static str) -> Self {
+        Self { name, path, programs: OnceLock::new() }
     }
 
     /// All programs of the table: one, or one per function.
@@ -54,7 +79,8 @@ impl BuiltIn {
     /// # Errors
     /// Never for the tables of this module, which are tested.
     pub fn programs(&'static self) -> Result<&'static [Program], Failure> {
-        let read = || Program::check_all(&Table::parse(Source::new(self.path, self.text))?);
+        let text = TEXTS.iter().find(|(path, _)| *path == self.path).map_or("", |(_, text)| *text);
+        let read = || Program::check_all(&Table::parse_among(Source::new(self.path, text), TEXTS)?);
         self.programs.get_or_init(read).as_deref().map_err(Clone::clone)
     }
 
@@ -86,11 +112,13 @@ mod tests {
 
     #[test]
     fn every_table_is_read_and_has_its_name() {
-        for table in [&SMSR, &RSMSS, &HORIZON_CLIP, &CLIP_STEP, &EDGE_SILHOUETTE, &BOX_SILHOUETTE] {
-            assert_eq!(table.program().unwrap_or_else(|e| panic!("{e}")).name, table.name);
-        }
-        for table in [&DOUBLE_PRODUCT, &SPHERICAL_GAUSSIAN, &EDGE_INTEGRAL, &CLOSED_FORMS] {
-            assert!(table.programs().unwrap_or_else(|e| panic!("{e}")).len() > 1, "{}", table.name);
+        for table in ALL {
+            let programs = table.programs().unwrap_or_else(|e| panic!("{e}"));
+            assert!(
+                !programs.is_empty() && programs.iter().all(|program| program.name.starts_with(table.name)),
+                "{}",
+                table.name
+            );
         }
         assert!(SMSR.function("moments").is_err());
     }

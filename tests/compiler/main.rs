@@ -7,6 +7,7 @@ mod batch;
 mod certificates;
 mod constants;
 mod constructs;
+mod convolution;
 mod emitted_names;
 mod emitted_rust;
 mod generated;
