@@ -6,6 +6,7 @@
 
 pub(crate) mod flat;
 pub mod light;
+pub mod matter;
 mod mesh;
 pub mod rays;
 mod read;
@@ -17,6 +18,7 @@ use std::path::Path;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::scene::light::{Light, Lights, Punctual};
+use crate::scene::matter::Matter;
 use crate::scene::view::Camera;
 use crate::text::closest::nearest;
 use crate::text::file;
@@ -51,6 +53,8 @@ pub struct Scene {
 pub struct Object {
     /// Its colour, linear.
     pub colour: [f64; 3],
+    /// The matter inside of its surface, for techniques that look there.
+    pub matter: Matter,
     /// True of objects that the shadow map is fitted to.
     pub casts: bool,
     /// Its surface, seen from both sides.
@@ -67,21 +71,25 @@ impl Object {
 }
 
 /// The scenes that come with Umbrage, by name.
-const BUILT_IN: [(&str, &str); 14] = [
+const BUILT_IN: [(&str, &str); 18] = [
     ("abutting", include_str!("../../scenes/abutting.ron")),
+    ("boxes", include_str!("../../scenes/boxes.ron")),
     ("columns", include_str!("../../scenes/columns.ron")),
     ("dining", include_str!("../../scenes/dining.ron")),
+    ("disk", include_str!("../../scenes/disk.ron")),
     ("fence", include_str!("../../scenes/fence.ron")),
     ("foliage", include_str!("../../scenes/foliage.ron")),
     ("grazing", include_str!("../../scenes/grazing.ron")),
     ("lattice", include_str!("../../scenes/lattice.ron")),
     ("leaves", include_str!("../../scenes/leaves.ron")),
     ("outdoor", include_str!("../../scenes/outdoor.ron")),
+    ("poles", include_str!("../../scenes/poles.ron")),
     ("slope", include_str!("../../scenes/slope.ron")),
     ("studio", include_str!("../../scenes/studio.ron")),
     ("table", include_str!("../../scenes/table.ron")),
     ("teapot", include_str!("../../scenes/teapot.ron")),
     ("text", include_str!("../../scenes/text.ron")),
+    ("tilt", include_str!("../../scenes/tilt.ron")),
 ];
 
 impl Scene {

@@ -30,6 +30,8 @@ pub enum Range {
     Number(f64, f64),
     /// Code shapes of tables.
     Plan,
+    /// One of these words.
+    Word(&'static [&'static str]),
 }
 
 /// A value of a setting.
@@ -41,6 +43,8 @@ pub enum Value {
     Number(f64),
     /// Of [`Range::Plan`].
     Plan(Shape),
+    /// Of [`Range::Word`].
+    Word(&'static str),
 }
 
 impl Setting {
@@ -55,6 +59,7 @@ impl Setting {
             Range::Odd(from, to) => whole().filter(|n| (from..=to).contains(n) && n % 2 == 1).map(Value::Whole),
             Range::Number(from, to) => text.parse::<f64>().ok().filter(|n| (from..=to).contains(n)).map(Value::Number),
             Range::Plan => Shape::from_name(text).map(Value::Plan),
+            Range::Word(words) => words.iter().find(|word| **word == text).map(|word| Value::Word(word)),
         };
         value.ok_or_else(|| format!("expected {}", self.range))
     }
@@ -70,6 +75,7 @@ impl fmt::Display for Range {
                 let names: Vec<&str> = Shape::ALL.iter().map(|shape| shape.name()).collect();
                 write!(f, "a plan: {}", names.join(", "))
             }
+            Range::Word(words) => write!(f, "one of {}", words.join(", ")),
         }
     }
 }
@@ -80,6 +86,7 @@ impl fmt::Display for Value {
             Value::Whole(value) => value.fmt(f),
             Value::Number(value) => value.fmt(f),
             Value::Plan(value) => value.fmt(f),
+            Value::Word(value) => value.fmt(f),
         }
     }
 }
@@ -115,7 +122,7 @@ impl Settings {
     pub fn whole(&self, setting: &Setting) -> u32 {
         match (self.value(setting), setting.default) {
             (Value::Whole(value), _) | (_, Value::Whole(value)) => value,
-            (Value::Number(_) | Value::Plan(_), _) => 0,
+            (Value::Number(_) | Value::Plan(_) | Value::Word(_), _) => 0,
         }
     }
 
@@ -123,7 +130,15 @@ impl Settings {
     pub fn number(&self, setting: &Setting) -> f64 {
         match (self.value(setting), setting.default) {
             (Value::Number(value), _) | (_, Value::Number(value)) => value,
-            (Value::Whole(_) | Value::Plan(_), _) => 0.0,
+            (Value::Whole(_) | Value::Plan(_) | Value::Word(_), _) => 0.0,
+        }
+    }
+
+    /// The value of a setting that is a word.
+    pub fn word(&self, setting: &Setting) -> &'static str {
+        match (self.value(setting), setting.default) {
+            (Value::Word(value), _) | (_, Value::Word(value)) => value,
+            (Value::Whole(_) | Value::Number(_) | Value::Plan(_), _) => "",
         }
     }
 
@@ -131,7 +146,7 @@ impl Settings {
     pub fn plan(&self, setting: &Setting) -> Shape {
         match (self.value(setting), setting.default) {
             (Value::Plan(value), _) | (_, Value::Plan(value)) => value,
-            (Value::Whole(_) | Value::Number(_), _) => Shape::Ladder,
+            (Value::Whole(_) | Value::Number(_) | Value::Word(_), _) => Shape::Ladder,
         }
     }
 }
@@ -152,6 +167,9 @@ mod tests {
         let share = Setting { default: Value::Number(0.5), range: Range::Number(0.0, 1.0), ..KERNEL };
         assert_eq!(share.parse("0.25"), Ok(Value::Number(0.25)));
         assert_eq!(share.parse("NaN"), Err("expected a number from 0 to 1".to_owned()));
+        let side = Setting { default: Value::Word("left"), range: Range::Word(&["left", "right"]), ..KERNEL };
+        assert_eq!(side.parse("right"), Ok(Value::Word("right")));
+        assert_eq!(side.parse("top"), Err("expected one of left, right".to_owned()));
     }
 
     #[test]

@@ -15,6 +15,7 @@ use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use serde::Deserialize;
 
 use crate::diag::{Diagnostic, Source, codes};
+use crate::scene::matter::Matter;
 use crate::scene::shapes::Shape;
 use crate::scene::shapes::letters;
 use crate::scene::shapes::solid::{Solid, Triangle};
@@ -66,7 +67,20 @@ struct ObjectRon<'a> {
     #[serde(default)]
     colour: Option<Raw<'a>>,
     #[serde(default)]
+    matter: Option<Raw<'a>>,
+    #[serde(default)]
     copies: Option<Raw<'a>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Matter", deny_unknown_fields)]
+struct MatterRon<'a> {
+    #[serde(borrow)]
+    opacity: Raw<'a>,
+    #[serde(default)]
+    length: Option<Raw<'a>>,
+    #[serde(default)]
+    transport: Option<Raw<'a>>,
 }
 
 #[derive(Deserialize)]
@@ -91,6 +105,10 @@ enum ShapeRon<'a> {
         radius: Raw<'a>,
     },
     Column {
+        radius: Raw<'a>,
+        height: Raw<'a>,
+    },
+    Cylinder {
         radius: Raw<'a>,
         height: Raw<'a>,
     },
@@ -251,12 +269,22 @@ impl<'a> Read<'a> {
         Ok(camera)
     }
 
+    fn matter(&self, raw: Raw<'a>) -> Result<Matter> {
+        let ron: MatterRon<'_> = self.reader.get(raw)?;
+        Ok(Matter {
+            opacity: self.number(ron.opacity, 0.0, 1.0)?,
+            length: self.or(ron.length, Matter::OPAQUE.length, |raw| self.length(raw))?,
+            transport: self.or(ron.transport, Matter::OPAQUE.transport, |raw| self.colour(raw))?,
+        })
+    }
+
     fn object(&self, raw: Raw<'a>) -> Result<Object> {
         let ron: ObjectRon<'_> = self.reader.get(raw)?;
         let at = self.or(ron.at, DVec3::ZERO, |raw| self.place(raw))?;
         let [x, y, z] = self.or(ron.turn, [0.0; 3], |raw| self.triple(raw, -360.0, 360.0))?.map(f64::to_radians);
         let scale = self.or(ron.scale, 1.0, |raw| self.length(raw))?;
         let colour = self.or(ron.colour, [0.75, 0.75, 0.75], |raw| self.colour(raw))?;
+        let matter = self.or(ron.matter, Matter::OPAQUE, |raw| self.matter(raw))?;
         let (count, step) = match ron.copies {
             None => (1, DVec3::ZERO),
             Some(raw) => {
@@ -276,7 +304,7 @@ impl<'a> Read<'a> {
         for index in 0..count {
             solid.add(&shape, &place(index), scale);
         }
-        Ok(Object { colour, casts, triangles: solid.triangles, parts: solid.parts })
+        Ok(Object { colour, matter, casts, triangles: solid.triangles, parts: solid.parts })
     }
 
     /// The surface of a shape, and whether the shadow map is fitted to it.
@@ -287,6 +315,9 @@ impl<'a> Read<'a> {
             ShapeRon::Ball { radius } => Shape::Ball { radius: self.length(radius)? },
             ShapeRon::Column { radius, height } => {
                 Shape::Column { radius: self.length(radius)?, height: self.length(height)? }
+            }
+            ShapeRon::Cylinder { radius, height } => {
+                Shape::Cylinder { radius: self.length(radius)?, height: self.length(height)? }
             }
             ShapeRon::Fence { bars, width, gap, height } => Shape::Fence {
                 bars: self.count(bars, 10_000)?,

@@ -36,6 +36,13 @@ pub enum Shape {
         /// Its height.
         height: f64,
     },
+    /// A round column that is closed below as well.
+    Cylinder {
+        /// Its radius.
+        radius: f64,
+        /// Its height.
+        height: f64,
+    },
     /// Upright bars with two rails.
     Fence {
         /// Number of bars.
@@ -117,6 +124,10 @@ impl Shape {
                 out.stand_for(0, Form::Ball { centre: DVec3::Y * *radius, radius: *radius });
             }
             Shape::Column { radius, height } => column(&mut out, *radius, *height),
+            Shape::Cylinder { radius, height } => {
+                column(&mut out, *radius, *height);
+                lid(&mut out, *radius, 0.0);
+            }
             Shape::Fence { bars, width, gap, height } => fence(&mut out, *bars, *width, *gap, *height),
             Shape::Lattice { cells, size, width } => lattice(&mut out, *cells, *size, *width),
             Shape::Foliage { leaves, radius, length, seed } => foliage(&mut out, *leaves, *radius, *length, *seed),
@@ -133,13 +144,21 @@ impl Shape {
     }
 }
 
+fn rim(u: f64) -> DVec3 {
+    DVec3::new(libm::sin(u * TAU), 0.0, libm::cos(u * TAU))
+}
+
 fn column(out: &mut Solid, radius: f64, height: f64) {
-    let rim = |u: f64| DVec3::new(libm::sin(u * TAU), 0.0, libm::cos(u * TAU));
     surface(out, ROUND, 1, |u, v| (rim(u) * radius + DVec3::Y * height * (1.0 - v), rim(u)));
-    let top = |u: f64| rim(u) * radius + DVec3::Y * height;
+    lid(out, radius, height);
+}
+
+/// The top of a column, or its bottom, at height 0.
+fn lid(out: &mut Solid, radius: f64, height: f64) {
+    let middle = DVec3::Y * height;
     for i in 0..ROUND {
-        let at = |i: u32| top(f64::from(i) / f64::from(ROUND));
-        out.triangles.push(Triangle::flat([DVec3::Y * height, at(i), at(i + 1)]));
+        let [a, b] = [i, i + 1].map(|i| rim(f64::from(i) / f64::from(ROUND)) * radius + middle);
+        out.triangles.push(Triangle::flat(if height > 0.0 { [middle, a, b] } else { [middle, b, a] }));
     }
 }
 
