@@ -12,6 +12,7 @@
 pub mod area;
 pub mod capture;
 pub mod cases;
+pub mod convolve;
 pub mod count;
 pub mod difference;
 pub mod executor;
@@ -54,6 +55,8 @@ pub static ALL: &[&dyn Technique] = &[
     &area::AREA_RATIO,
     &area::PEEL,
     &area::EXACT,
+    &convolve::CONVOLVE,
+    &convolve::REFERENCE,
 ];
 
 /// A way to turn a scene into a picture.

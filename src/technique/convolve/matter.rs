@@ -1,0 +1,267 @@
+//! The slabs of a scene: crossings of surfaces made matter by the table of cases, `tables/slab.ron`, and opacities by
+//! `tables/shade.ron`.
+
+use std::collections::HashMap;
+use std::sync::Mutex;
+
+use super::functions::Function;
+use super::inside::{Change, Changes};
+use super::sweep::{Matter, Slabs};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::scene::matter::Matter as Contents;
+use crate::technique::tables::{SHADE, SLAB};
+
+/// An object's substance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Its colour, linear.
+    pub colour: [f64; 3],
+    /// Its contents.
+    pub matter: Contents,
+}
+
+/// Policies of slabs: names of levels of `tables/policies.ron`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SlabPolicies {
+    /// Of the set `coverage`.
+    pub coverage: &'static str,
+    /// Of the set `hit`.
+    pub hit: &'static str,
+}
+
+/// The places at which slabs begin and end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stack {
+    /// Depth of the front of the first one.
+    pub front: f64,
+    /// Thickness of each.
+    pub thickness: f64,
+    /// The number of slabs.
+    pub count: usize,
+}
+
+impl Stack {
+    /// The depths at which a slab begins and ends; the next one begins exactly there.
+    pub fn slab(&self, index: usize) -> (f64, f64) {
+        let at = |index: usize| self.front + index as f64 * self.thickness;
+        (at(index), at(index + 1))
+    }
+}
+
+/// A place to sample, of those in the level set `place` of `tables/slab.ron`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Nowhere,
+    /// Within the matter that was there before the slab.
+    Within,
+    /// At a crossing, or at the hit of several.
+    AtSurface,
+    /// In the longest part inside, or the only one.
+    InPart,
+}
+
+/// The table's word on a slab.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Case {
+    inside_after: bool,
+    place: Place,
+}
+
+/// Crossings of which cases are kept; more are rare, and asked for each time.
+const KEPT: usize = 8;
+
+/// The slabs of a scene.
+#[derive(Debug)]
+pub struct SceneSlabs<'c> {
+    changes: &'c Changes,
+    stack: Stack,
+    width: usize,
+    policies: SlabPolicies,
+    /// One for each object.
+    materials: Vec<Material>,
+    cases: Vec<[Case; 2]>,
+    slab: Function,
+    opacity: Function,
+    transmittance: Function,
+    /// Opacity and transmittance by material and length of the way.
+    known: Mutex<HashMap<(usize, u64), Through>>,
+}
+
+/// Opacity, and the share of light that goes on by colour.
+type Through = (f64, [f64; 3]);
+
+/// A pixel between slabs.
+#[derive(Debug, Clone, Copy)]
+pub struct Cursor {
+    /// The next change of the pixel.
+    next: usize,
+    /// Set inside of matter.
+    inside: bool,
+    /// The object of which that matter is.
+    medium: usize,
+}
+
+impl<'c> SceneSlabs<'c> {
+    /// The slabs of a picture.
+    ///
+    /// # Errors
+    /// Never with the tables that come with Umbrage.
+    pub fn new(
+        changes: &'c Changes,
+        stack: Stack,
+        width: usize,
+        policies: SlabPolicies,
+        materials: Vec<Material>,
+    ) -> Result<Self, Failure> {
+        let slab = Function::cases(&SLAB)?;
+        let both = |crossings: usize| -> Result<[Case; 2], Failure> {
+            let case = |inside: bool| case(slab, inside, crossings, policies.coverage);
+            Ok([case(false)?, case(true)?])
+        };
+        Ok(Self {
+            changes,
+            stack,
+            width,
+            policies,
+            materials,
+            cases: (0..KEPT).map(both).collect::<Result<_, Failure>>()?,
+            slab,
+            opacity: Function::of(&SHADE, "opacity")?,
+            transmittance: Function::of(&SHADE, "transmittance")?,
+            known: Mutex::default(),
+        })
+    }
+
+    /// Of each slab, whether it holds matter at any pixel.
+    pub fn occupied(&self) -> Vec<bool> {
+        let mut starts = vec![0_i64; self.stack.count + 1];
+        let index = |depth: f64| {
+            let guess = ((depth - self.stack.front) / self.stack.thickness).floor();
+            guess.clamp(0.0, (self.stack.count - 1) as f64) as usize
+        };
+        for pixel in 0..self.changes.first.len() - 1 {
+            for pair in self.changes.of(pixel).chunks(2) {
+                // One more on either side, as the guess may be off by rounding.
+                let from = index(pair[0].at.depth).saturating_sub(1);
+                let to = pair.get(1).map_or(self.stack.count - 1, |end| index(end.at.depth));
+                starts[from] += 1;
+                starts[(to + 2).min(self.stack.count)] -= 1;
+            }
+        }
+        let mut open = 0;
+        starts.truncate(self.stack.count);
+        starts.iter().map(|change| (open += change, open > 0).1).collect()
+    }
+
+    fn case(&self, inside: bool, crossings: usize) -> Case {
+        match self.cases.get(crossings) {
+            Some(cases) => cases[usize::from(inside)],
+            // The table was asked before, and answers to any number of crossings.
+            None => case(self.slab, inside, crossings, self.policies.coverage).unwrap_or(self.cases[0][0]),
+        }
+    }
+
+    /// Opacity and transmittance of a way through an object.
+    fn through(&self, object: usize, path: f64) -> Through {
+        let key = (object, path.to_bits());
+        if let Some(known) = self.known.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get(&key) {
+            return *known;
+        }
+        let Contents { opacity, length, transport } = self.materials[object].matter;
+        let given = [("alpha_ref", opacity.into()), ("e_ref", length.into()), ("path", path.into())];
+        let alpha = self.opacity.call(&given).and_then(|answer| answer.number("value")).unwrap_or(0.0);
+        let goes_on = |transport: f64| {
+            let given = [given[0], given[1], given[2], ("transport", transport.into())];
+            self.transmittance.call(&given).and_then(|answer| answer.number("value")).unwrap_or(1.0)
+        };
+        let through = (alpha, transport.map(goes_on));
+        let mut known = self.known.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        // Ways of exactly the same length are those of whole slabs and of flat faces: others need not be kept.
+        if known.len() < 1 << 16 {
+            known.insert(key, through);
+        }
+        through
+    }
+
+    /// The length of the parts inside, and the object of the longest of them.
+    fn parts(&self, cursor: &Cursor, changes: &[Change], (front, back): (f64, f64)) -> (f64, usize) {
+        let (mut from, mut inside, mut medium) = (front, cursor.inside, cursor.medium);
+        let (mut sum, mut longest, mut of) = (0.0, 0.0, cursor.medium);
+        let ends = changes.iter().map(|change| (change.at.depth.max(front), change.inside, change.at.object as usize));
+        for (depth, inside_next, object) in ends.chain([(back, false, 0)]) {
+            if inside {
+                let length = depth - from;
+                sum += length;
+                if length > longest {
+                    (longest, of) = (length, medium);
+                }
+            }
+            (from, inside, medium) = (depth, inside_next, object);
+        }
+        (sum, of)
+    }
+
+    fn sample(&self, cursor: &Cursor, changes: &[Change], place: Place, ends: (f64, f64)) -> Option<Matter> {
+        let full = self.policies.coverage == "full";
+        let (path, object) = match place {
+            Place::Nowhere => return None,
+            Place::Within => (self.stack.thickness, cursor.medium),
+            Place::AtSurface | Place::InPart if full => {
+                let hit = if self.policies.hit == "first" { changes.first() } else { changes.last() };
+                // Where the ray comes out, the matter is that which it was in.
+                let object = hit.map_or(cursor.medium, |hit| hit.at.object as usize);
+                (self.stack.thickness, object)
+            }
+            Place::AtSurface | Place::InPart => self.parts(cursor, changes, ends),
+        };
+        let (alpha, through) = if path > 0.0 { self.through(object, path) } else { return None };
+        Some(Matter { alpha, through, colour: self.materials[object].colour })
+    }
+}
+
+/// The case of a slab, from the table.
+fn case(slab: Function, inside: bool, crossings: usize, coverage: &str) -> Result<Case, Failure> {
+    let count = crossings.min(i32::MAX as usize).to_string();
+    let inside_word = if inside { "true" } else { "false" };
+    let answer = slab.call(&[
+        ("inside", inside_word.into()),
+        ("crossings", count.as_str().into()),
+        ("coverage", coverage.into()),
+    ])?;
+    let place = match answer.level("sampled_at")? {
+        "nowhere" => Place::Nowhere,
+        "jittered" | "middle" => Place::Within,
+        "crossing" | "hit" => Place::AtSurface,
+        "inside_middle" | "longest_middle" => Place::InPart,
+        other => {
+            let message = format!("slabs are not sampled at `{other}`");
+            return Err(Failure::bare("", Diagnostic::error(codes::NOT_APPLICABLE, message)));
+        }
+    };
+    Ok(Case { inside_after: answer.holds("inside_after")?, place })
+}
+
+impl Slabs for SceneSlabs<'_> {
+    type Row = Vec<Cursor>;
+
+    fn row(&self, y: usize) -> Vec<Cursor> {
+        let pixels = y * self.width..(y + 1) * self.width;
+        pixels.map(|pixel| Cursor { next: self.changes.first[pixel], inside: false, medium: 0 }).collect()
+    }
+
+    fn matter(&self, slab: usize, y: usize, row: &mut Vec<Cursor>, out: &mut [Option<Matter>]) {
+        let ends = self.stack.slab(slab);
+        for (x, (cursor, out)) in row.iter_mut().zip(out).enumerate() {
+            let end = self.changes.first[y * self.width + x + 1];
+            let ahead = &self.changes.all[cursor.next..end];
+            let changes = &ahead[..ahead.iter().take_while(|change| change.at.depth < ends.1).count()];
+            let case = self.case(cursor.inside, changes.len());
+            *out = self.sample(cursor, changes, case.place, ends);
+            cursor.next += changes.len();
+            cursor.inside = case.inside_after;
+            if let Some(last) = changes.last() {
+                cursor.medium = last.at.object as usize;
+            }
+        }
+    }
+}

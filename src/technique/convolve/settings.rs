@@ -1,0 +1,162 @@
+//! The choices of the technique. Words are names of levels of `tables/policies.ron` and `tables/kernels.ron`.
+
+use super::inside::InsideRule;
+use super::kernel::Kernel;
+use super::light::Split;
+use super::matter::SlabPolicies;
+use super::stencil::Border;
+use super::steps::Spread;
+use super::view::Projection;
+use crate::technique::Setting;
+use crate::technique::setting::{Range, Settings, Value};
+
+const fn whole(name: &'static str, doc: &'static str, default: u32, range: (u32, u32)) -> Setting {
+    Setting { name, doc, default: Value::Whole(default), range: Range::Whole(range.0, range.1), label: "" }
+}
+
+const fn number(name: &'static str, doc: &'static str, default: f64, range: (f64, f64)) -> Setting {
+    Setting { name, doc, default: Value::Number(default), range: Range::Number(range.0, range.1), label: "" }
+}
+
+const fn word(name: &'static str, doc: &'static str, words: &'static [&'static str]) -> Setting {
+    Setting { name, doc, default: Value::Word(words[0]), range: Range::Word(words), label: "" }
+}
+
+/// The number of slabs.
+pub const SLABS: Setting = whole("slabs", "slabs from the nearest surface to the farthest", 400, (1, 1 << 20));
+/// The distance at which penumbras are right.
+pub const DISTANCE: Setting =
+    number("distance", "distance at which penumbras are right; 0 is half of the depth", 0.0, (0.0, 1e6));
+/// The kernel.
+pub const KERNEL: Setting = word(
+    "kernel",
+    "the blur of a slab",
+    &["ring_affine", "ring_arc", "poisson8", "poisson16", "gauss19x19", "frac_box", "binomial3"],
+);
+/// The samples of a ring.
+pub const SAMPLES: Setting = whole("samples", "samples of a ring", 3, (2, 64));
+/// The sequence of phases.
+pub const PHASE: Setting = word("phase", "how samples move from slab to slab", &["golden", "steady"]);
+/// The answer to the blur of interpolation.
+pub const SMEAR: Setting =
+    word("smear", "what is done about the blur of interpolation", &["advised", "none", "subtract", "stride", "snap"]);
+/// Matter of slabs that are not inside from front to back.
+pub const COVERAGE: Setting = word("coverage", "how much matter a slab holds at a surface", &["full", "exact"]);
+/// The crossing that is shaded.
+pub const HIT: Setting = word("hit", "which of several surfaces in a slab is seen", &["first", "last"]);
+/// The rule that separates inside from outside.
+pub const RULE: Setting = word("rule", "what separates inside from outside", &["parity", "winding"]);
+/// The fate of lists that end inside.
+pub const ODD: Setting = word(
+    "odd",
+    "what becomes of a pixel whose ray goes into matter and never comes out",
+    &["drop_last", "close_at_end", "error"],
+);
+/// Light beside the picture.
+pub const BORDER: Setting = word("border", "the light beside the picture", &["unoccluded", "clamp"]);
+/// The projection.
+pub const PROJECTION: Setting =
+    word("projection", "how slabs are seen", &["orthographic", "perspective_world", "perspective_follow"]);
+/// The lights that each light is split into.
+pub const SPLIT: Setting = whole("split", "lights that each light is split into, but not 2", 1, (1, 1024));
+/// The share of its covariance that they keep.
+pub const RHO: Setting = number("rho", "share of a light's covariance that each of its parts keeps", 0.15, (0.0, 1.0));
+/// Steps through empty slabs.
+pub const SKIP: Setting = whole("skip", "most steps through a run of empty slabs; 0 is one a slab", 16, (0, 1 << 20));
+/// The numbers that light is kept in.
+pub const PRECISION: Setting = word("precision", "the numbers that light is kept in", &["f32", "f64"]);
+/// The lights of the reference.
+pub const SHARP_LIGHTS: Setting = whole("sharp_lights", "sharp lights that stand for each light", 256, (3, 1 << 16));
+
+/// The settings that reference and technique share, as both see the same slabs.
+pub const OF_SLABS: [Setting; 8] = [SLABS, COVERAGE, HIT, RULE, ODD, BORDER, PROJECTION, PRECISION];
+
+/// Everything that the technique is told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Chosen {
+    /// Slabs.
+    pub slabs: usize,
+    /// The rule that separates inside from outside.
+    pub inside: InsideRule,
+    /// Policies of slabs.
+    pub policies: SlabPolicies,
+    /// Light beside the picture.
+    pub border: Border,
+    /// The projection.
+    pub projection: Projection,
+    /// The way from blurs to samples; a distance of 0 stands for half of the depth.
+    pub spread: Spread,
+    /// The parts of each light.
+    pub split: Split,
+    /// Set if light is kept in double precision.
+    pub wide: bool,
+}
+
+impl Chosen {
+    /// The choices for the technique.
+    pub fn of(settings: &Settings) -> Self {
+        let word = |setting: &Setting| settings.word(setting);
+        let lights = settings.whole(&SPLIT);
+        Self {
+            slabs: settings.whole(&SLABS) as usize,
+            inside: InsideRule { rule: word(&RULE), odd_list: word(&ODD) },
+            policies: SlabPolicies { coverage: word(&COVERAGE), hit: word(&HIT) },
+            border: if word(&BORDER) == "clamp" { Border::Clamp } else { Border::Unoccluded },
+            projection: match word(&PROJECTION) {
+                "perspective_world" => Projection::PerspectiveWorld,
+                "perspective_follow" => Projection::PerspectiveFollow,
+                _ => Projection::Orthographic,
+            },
+            spread: Spread {
+                kernel: Kernel { family: word(&KERNEL), samples: settings.whole(&SAMPLES) },
+                golden: word(&PHASE) == "golden",
+                smear: Some(word(&SMEAR)).filter(|smear| *smear != "advised"),
+                d1: settings.number(&DISTANCE),
+                skip: settings.whole(&SKIP) as usize,
+            },
+            split: Split { lights, rho: if lights == 1 { 1.0 } else { settings.number(&RHO) } },
+            wide: word(&PRECISION) == "f64",
+        }
+    }
+
+    /// The choices for its reference: many sharp lights, in double precision where asked.
+    pub fn of_reference(settings: &Settings) -> Self {
+        let chosen = Self::of(settings);
+        Self {
+            spread: Spread { smear: Some("snap"), skip: 1, ..chosen.spread },
+            split: Split { lights: settings.whole(&SHARP_LIGHTS), rho: 0.0 },
+            ..chosen
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::program::Domain;
+    use crate::technique::tables::{BuiltIn, KERNELS, POLICIES, SLAB};
+
+    /// The levels of an input of a table or one of its functions.
+    fn levels(table: &'static BuiltIn, input: &str) -> Vec<String> {
+        let all = table.programs().expect("built in").iter().flat_map(|program| &program.inputs);
+        let found = all.filter(|of| of.name == input).find_map(|of| match &of.domain {
+            Domain::Discrete(levels) => Some(levels.names.clone()),
+            Domain::Continuous { .. } => None,
+        });
+        found.unwrap_or_else(|| panic!("no input `{input}`"))
+    }
+
+    #[test]
+    fn words_are_those_of_the_tables() {
+        for (setting, table, input) in [(RULE, &POLICIES, "inside_rule"), (COVERAGE, &SLAB, "coverage")] {
+            let Range::Word(words) = setting.range else { panic!("{input}: words") };
+            assert_eq!(words, levels(table, input), "{input}");
+        }
+        let Range::Word(kernels) = KERNEL.range else { panic!("words") };
+        let programs = KERNELS.programs().expect("built in").iter();
+        let functions: Vec<&str> = programs.filter_map(|p| p.function.as_ref()).map(|f| f.name.as_str()).collect();
+        for kernel in kernels.iter().filter(|kernel| **kernel != "gauss19x19") {
+            assert!(functions.contains(kernel), "{kernel}");
+        }
+    }
+}
