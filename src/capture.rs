@@ -58,6 +58,8 @@ enum Kind {
     Levels(Vec<String>),
     Numbers,
     NumbersWithGaps,
+    Words,
+    WordsWithGaps,
 }
 
 impl Kind {
@@ -65,8 +67,8 @@ impl Kind {
     fn width(&self) -> u64 {
         match self {
             Kind::Levels(_) => 1,
-            Kind::Numbers => 4,
-            Kind::NumbersWithGaps => 5,
+            Kind::Numbers | Kind::Words => 4,
+            Kind::NumbersWithGaps | Kind::WordsWithGaps => 5,
         }
     }
 }
@@ -101,6 +103,8 @@ pub struct Capture {
 pub fn write(program: &Program, columns: &Columns<f32>, out: &mut impl Write) -> io::Result<()> {
     let kind = |input: &Input, column: &Column<f32>| match (&input.domain, column) {
         (Domain::Discrete(levels), _) => Kind::Levels(levels.names.clone()),
+        (Domain::Word, Column::Numbers { present: Some(_), .. }) => Kind::WordsWithGaps,
+        (Domain::Word, _) => Kind::Words,
         (_, Column::Numbers { present: Some(_), .. }) => Kind::NumbersWithGaps,
         _ => Kind::Numbers,
     };
@@ -281,6 +285,13 @@ fn read_column(
                 Some((row, value)) => Err(bad_value(row, input, &format!("is {value}, beyond {lo} to {hi}"))),
                 None => Ok(Column::Numbers { values, present }),
             }
+        }
+        (Domain::Word, Kind::Words | Kind::WordsWithGaps) => {
+            let (words, presence) = bytes.split_at(4 * rows);
+            let words = words.chunks_exact(4);
+            let values = words.map(|word| f32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
+            let present = (*kind == Kind::WordsWithGaps).then(|| presence.iter().map(|byte| *byte != 0).collect());
+            Ok(Column::Numbers { values, present })
         }
         _ => Err(changed(program, &format!("`{}` is of another kind now", input.name))),
     }

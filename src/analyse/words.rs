@@ -25,11 +25,11 @@ pub(super) fn at(program: &Program, witness: &Witness, relevant: InputSet) -> Op
                 None if needed => Some(input.default.unwrap_or(Value::Level(0))),
                 Some(_) | None => None,
             },
-            Domain::Continuous { lo, .. } => {
+            Domain::Continuous { .. } | Domain::Word => {
                 if needed && !witness.certain {
                     return None;
                 }
-                needed.then(|| Value::Number(witness.numbers[id.index()].unwrap_or(*lo)))
+                needed.then(|| Value::Number(witness.numbers[id.index()].unwrap_or_else(|| input.least())))
             }
         };
         match value {
@@ -48,12 +48,12 @@ fn asked_for(program: &Program, witness: &Witness, relevant: InputSet) -> InputS
     let Point { levels, numbers } = Point::of(program, witness);
     let value = |(id, input): (InputId, &Input)| match input.domain {
         Domain::Discrete(_) => Some(Value::Level(levels[id.index()])),
-        Domain::Continuous { .. } => Some(Value::Number(numbers[id.index()])),
+        Domain::Continuous { .. } | Domain::Word => Some(Value::Number(numbers[id.index()])),
     };
     let point: Vec<Option<Value>> = program.input_ids().map(value).collect();
     let plain = |(id, input): (InputId, &Input)| match input.domain {
-        Domain::Continuous { .. } if !relevant.contains(id) => input.default.or(point[id.index()]),
-        Domain::Continuous { .. } | Domain::Discrete(_) => point[id.index()],
+        Domain::Continuous { .. } | Domain::Word if !relevant.contains(id) => input.default.or(point[id.index()]),
+        Domain::Continuous { .. } | Domain::Word | Domain::Discrete(_) => point[id.index()],
     };
     let plain: Vec<Option<Value>> = program.input_ids().map(plain).collect();
     let mut interpreter = Interpreter::<f64>::new(program);

@@ -200,7 +200,7 @@ fn like(program: &Program, arrival: &Arrival, shown: Option<&Arrival>) -> Vec<Op
     let mut point = arrival.point.clone();
     if let Some(shown) = shown {
         for (id, input) in program.input_ids() {
-            if matches!(input.domain, Domain::Continuous { .. }) && input.fetched.is_none() {
+            if matches!(input.domain, Domain::Continuous { .. } | Domain::Word) && input.fetched.is_none() {
                 point[id.index()] = shown.point[id.index()];
             }
         }

@@ -56,7 +56,8 @@ impl Axes {
             let values = line.values.iter().map(|value| program.pool.expr_facts(*value).inputs);
             values.fold(all.or(program.pool.cond_facts(line.condition).inputs), |all, inputs| all.or(inputs))
         });
-        let is_number = |id: &InputId| matches!(program.inputs[id.index()].domain, Domain::Continuous { .. });
+        let is_number =
+            |id: &InputId| matches!(program.inputs[id.index()].domain, Domain::Continuous { .. } | Domain::Word);
         let mut numbers = inputs.minus(program.fetched).iter().filter(is_number);
         Axes { across: numbers.next(), down: numbers.next() }
     }
@@ -77,14 +78,15 @@ pub(super) fn picture(
     RgbaImage::from_fn(size, size, |x, y| {
         for (axis, place) in [(axes.across, x), (axes.down, y)] {
             let Some(input) = axis else { continue };
-            if let Domain::Continuous { lo, hi, .. } = program.inputs[input.index()].domain {
+            let domain = &program.inputs[input.index()].domain;
+            if let Some((lo, hi)) = domain.range() {
                 let share = (f64::from(place) + 0.5) / f64::from(size);
-                point[input.index()] = Some(Value::Number(lo * (1.0 - share) + hi * share));
+                point[input.index()] = Some(Value::Number(domain.point(lo * (1.0 - share) + hi * share)));
             }
         }
         match interpreter.evaluate(&point) {
             Ok(outcome) if outcome.row == Some(row) => {
-                let values: Vec<f64> = outcome.values.iter().map(|value| f64::from(*value)).collect();
+                let values = program.output.numbers(&outcome.values);
                 let [r, g, b] = colour(&program.output.read(&values), scale);
                 Rgba([r, g, b, 255])
             }

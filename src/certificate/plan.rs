@@ -23,6 +23,7 @@ pub(super) fn meaning(plan: &Plan<'_>, script: &mut Script) -> Meaning {
         let (sort, least) = match program.inputs[input.index()].domain {
             Domain::Discrete(_) => ("Int", "0".to_owned()),
             Domain::Continuous { lo, .. } => ("Real", real(lo)),
+            Domain::Word => ("Real", real(0.0)),
         };
         inputs[input.index()] = script.define(sort, &format!("(ite {needed} {} {least})", inputs[input.index()]));
         gathered.push((*input, needed));

@@ -39,6 +39,13 @@ impl Script {
                     script.line(&format!("(declare-const {symbol} Int)"));
                     script.line(&format!("(assert (and (<= 0 {symbol}) (< {symbol} {})))", levels.count()));
                 }
+                // A whole one, but what holds of all numbers holds of them.
+                Domain::Word => {
+                    script.comment(&format!("a U32{fetched}"));
+                    script.line(&format!("(declare-const {symbol} Real)"));
+                    script
+                        .line(&format!("(assert (and (<= 0.0 {symbol}) (<= {symbol} {})))", real(f64::from(u32::MAX))));
+                }
                 Domain::Continuous { lo, hi, .. } => {
                     script.comment(&format!("a number{fetched}"));
                     script.line(&format!("(declare-const {symbol} Real)"));

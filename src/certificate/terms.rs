@@ -50,6 +50,7 @@ impl<'a> Terms<'a> {
         }
         let term = match self.pool.node(expr) {
             Node::Const(number) => return real(number.get()),
+            Node::Word(word) => return real(f64::from(word)),
             Node::Input(input) => return self.inputs[input.index()].clone(),
             Node::Index(input) => format!("(to_real {})", self.inputs[input.index()]),
             // It occurs nowhere else.
@@ -82,6 +83,11 @@ impl<'a> Terms<'a> {
                 format!("(ite (< {a} 0.0) (- {}) {})", floor(&format!("(- {a})")), floor(&a))
             }
             UnaryOp::Fract => format!("(- {a} {})", floor(&a)),
+            // A word is the number that it is.
+            UnaryOp::NumberOfWord => a,
+            UnaryOp::WordNot | UnaryOp::WordOfNumber | UnaryOp::WordOfWhole => {
+                format!("({} {a})", script.function(&format!("{op:?}"), 1))
+            }
             UnaryOp::Acos
             | UnaryOp::Acosh
             | UnaryOp::Asin
@@ -130,14 +136,37 @@ impl<'a> Terms<'a> {
             | BinaryOp::Max
             | BinaryOp::Min
             | BinaryOp::Pow
-            | BinaryOp::Step => {}
+            | BinaryOp::Step
+            | BinaryOp::WordAdd
+            | BinaryOp::WordSubtract
+            | BinaryOp::WordMultiply
+            | BinaryOp::WordQuotient
+            | BinaryOp::WordRemainder
+            | BinaryOp::WordAnd
+            | BinaryOp::WordOr
+            | BinaryOp::WordXor
+            | BinaryOp::ShiftLeft
+            | BinaryOp::ShiftRight
+            | BinaryOp::WordMax
+            | BinaryOp::WordMin => {}
         }
         let (a, b) = (self.expr(script, a), self.expr(script, b));
         match op {
             BinaryOp::Add => format!("(+ {a} {b})"),
             BinaryOp::Subtract => format!("(- {a} {b})"),
-            BinaryOp::Max => larger(&a, &b),
-            BinaryOp::Min => smaller(&a, &b),
+            BinaryOp::Max | BinaryOp::WordMax => larger(&a, &b),
+            BinaryOp::Min | BinaryOp::WordMin => smaller(&a, &b),
+            // They wrap, and bits are no part of the logic.
+            BinaryOp::WordAdd
+            | BinaryOp::WordSubtract
+            | BinaryOp::WordMultiply
+            | BinaryOp::WordQuotient
+            | BinaryOp::WordRemainder
+            | BinaryOp::WordAnd
+            | BinaryOp::WordOr
+            | BinaryOp::WordXor
+            | BinaryOp::ShiftLeft
+            | BinaryOp::ShiftRight => format!("({} {a} {b})", script.function(&format!("{op:?}"), 2)),
             BinaryOp::Step => format!("(ite (<= {a} {b}) 1.0 0.0)"),
             BinaryOp::Remainder => format!("({} {a} {b})", script.function("remainder", 2)),
             BinaryOp::Atan2
@@ -236,7 +265,7 @@ impl<'a> Terms<'a> {
     /// The number of constants that an expression is a choice of, if it is one and they are few.
     fn choices(&self, expr: ExprId) -> Option<usize> {
         let count = match self.pool.node(expr) {
-            Node::Const(_) => 1,
+            Node::Const(_) | Node::Word(_) => 1,
             Node::Select(_, a, b) => self.choices(a)? + self.choices(b)?,
             Node::Index(_) => self.pool.expr_facts(expr).range.1 as usize + 1,
             Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => return None,
@@ -262,11 +291,12 @@ impl<'a> Terms<'a> {
                 })
             }
             Node::Const(_)
+            | Node::Word(_)
             | Node::Input(_)
             | Node::Result(_)
             | Node::Unary(..)
             | Node::Binary(..)
-            | Node::Ternary(..) => make(script, self.pool.constant(expr).unwrap_or_default()),
+            | Node::Ternary(..) => make(script, self.pool.known(expr).unwrap_or_default()),
         }
     }
 
@@ -374,7 +404,7 @@ impl<'a> Terms<'a> {
             return known.clone();
         }
         let term = match pool.node(expr) {
-            Node::Const(_) | Node::Result(_) => "false".to_owned(),
+            Node::Const(_) | Node::Word(_) | Node::Result(_) => "false".to_owned(),
             Node::Input(read) | Node::Index(read) => (read == input).to_string(),
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let parts: Vec<String> = node.children().map(|part| self.reads(script, part, input)).collect();

@@ -215,7 +215,8 @@ fn interpret<T: Real>(program: &Program, points: &Points) -> Answers {
     if let Ok(results) = Batch::<T>::new(program).evaluate(&columns_of(program, points)) {
         for point in 0..results.len() {
             answers.rows.push(results.row(point));
-            answers.values.extend((0..results.components()).map(|c| results.values(c)[point].to_f64()));
+            let values = (0..results.components()).map(|c| results.values(c)[point]).collect::<Vec<T>>();
+            answers.values.extend(program.output.numbers(&values));
         }
         return answers;
     }
@@ -224,7 +225,7 @@ fn interpret<T: Real>(program: &Program, points: &Points) -> Answers {
         match interpreter.evaluate(points.point(index)) {
             Ok(outcome) => {
                 answers.rows.push(outcome.row);
-                answers.values.extend(outcome.values.into_iter().map(T::to_f64));
+                answers.values.extend(program.output.numbers(&outcome.values));
             }
             Err(NeedsFetch(input)) => answers.needed.push((index, input)),
         }
@@ -251,7 +252,8 @@ fn dispatch(
             Some(input) => answers.needed.push((point, input)),
             None => {
                 answers.rows.push(*row);
-                answers.values.extend(outputs.values.iter().map(|component| f64::from(component[point])));
+                let values: Vec<f32> = outputs.values.iter().map(|component| component[point]).collect();
+                answers.values.extend(program.output.numbers(&values));
             }
         }
     }

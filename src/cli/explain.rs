@@ -161,6 +161,7 @@ fn sample(input: &crate::program::Input) -> String {
             }
         }
         crate::program::Domain::Continuous { lo, .. } => lo.to_string(),
+        crate::program::Domain::Word => "0".to_owned(),
     }
 }
 

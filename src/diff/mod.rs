@@ -23,7 +23,7 @@ use crate::eval::{Batch, Columns, Interpreter, IntervalInterpreter, Results};
 use crate::gpu::{Gpu, Kernel, Language, Outputs};
 use crate::plan::{Plan, PlanOptions, Shape, Weights};
 use crate::program::reachable;
-use crate::program::{Domain, Program};
+use crate::program::{Domain, Program, Scalar};
 use crate::prove::{Proved, is_of_one_plan, is_unsuitable};
 use crate::show::{Precision, sentence};
 
@@ -350,7 +350,7 @@ impl Leeway {
         let (plan, proof) = (proved.plan(), proved.proof());
         let largest = plan.program.inputs.iter().map(|input| match input.domain {
             Domain::Continuous { lo, hi, .. } => lo.abs().max(hi.abs()),
-            Domain::Discrete(_) => 0.0,
+            Domain::Discrete(_) | Domain::Word => 0.0,
         });
         // Where the proof knows no bound, a few roundings of the inputs. The
         // proof's is for rounding to nearest, and WGSL lets an error be twice that.
@@ -391,13 +391,15 @@ impl<'p> Judge<'p> {
         let got_row = if leeway.other_case { want.row } else { outputs.rows[point] };
         let same_case = want.row == got_row;
         let (mut same_bits, mut worst) = (same_case, 0.0_f64);
-        for (component, values) in outputs.values.iter().enumerate() {
+        for ((component, values), of) in outputs.values.iter().enumerate().zip(self.program.output.components()) {
             let (a, b) = (expected.values(component)[point], values[point]);
             same_bits &= a.to_bits() == b.to_bits();
             if same_case && a.to_bits() != b.to_bits() {
-                let difference = (f64::from(a) - f64::from(b)).abs();
+                let difference = (of.scalar.read(a) - of.scalar.read(b)).abs();
                 // A NaN on one side only is as far off as can be; two are no difference.
-                let difference = if a.is_nan() && b.is_nan() || a == b { 0.0 } else { difference };
+                // Of words, neither is the case: what carries them may be anything.
+                let is_same = of.scalar != Scalar::Word && (a.is_nan() && b.is_nan() || a == b);
+                let difference = if is_same { 0.0 } else { difference };
                 worst = worst.max(if difference.is_nan() { f64::INFINITY } else { difference });
             }
         }
@@ -459,7 +461,7 @@ impl<'p> Judge<'p> {
     }
 
     fn describe(&self, row: Option<usize>, values: &[f32]) -> String {
-        let values: Vec<f64> = values.iter().map(|value| f64::from(*value)).collect();
+        let values = self.program.output.numbers(values);
         let case = row.map_or_else(|| "the default".to_owned(), |row| format!("case {}", self.program.rows[row].id));
         format!("{case} with {}", sentence(&self.program.output, &values, Precision::F32))
     }

@@ -10,6 +10,7 @@ pub(super) fn input_type(domain: &Domain, levels: Scalar) -> Scalar {
         Domain::Discrete(l) if l.classes.is_some() && levels == Scalar::Float => Scalar::Int,
         Domain::Discrete(_) => levels,
         Domain::Continuous { .. } => Scalar::Float,
+        Domain::Word => Scalar::Word,
     }
 }
 
@@ -17,7 +18,7 @@ pub(super) fn input_type(domain: &Domain, levels: Scalar) -> Scalar {
 pub(super) fn fetched_type(domain: &Domain) -> Scalar {
     match domain {
         Domain::Discrete(levels) if levels.classes.is_some() => Scalar::Int,
-        Domain::Discrete(_) | Domain::Continuous { .. } => input_type(domain, Scalar::Uint),
+        Domain::Discrete(_) | Domain::Continuous { .. } | Domain::Word => input_type(domain, Scalar::Uint),
     }
 }
 
@@ -61,4 +62,9 @@ pub(super) fn fetches(program: &Program) -> Vec<Fetch> {
         }
     }
     all
+}
+
+/// The inputs that are passed beside the key: those without levels that are not fetched, in the order declared.
+pub(super) fn beside_the_key(program: &Program) -> impl Iterator<Item = &Input> {
+    program.inputs.iter().filter(|input| input.fetched.is_none() && input.domain.range().is_some())
 }

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use super::function::body::Body;
 use super::function::lookup;
 use super::function::outline::MAX_LEVELS;
-use super::inputs::{fetches, input_type};
+use super::inputs::{beside_the_key, fetches, input_type};
 use super::language::{Dialect, Prefix, Type, structures};
 use super::names::{MAX_INTEGERS, Names};
 use super::text::Text;
@@ -352,11 +352,8 @@ impl Writer<'_, '_> {
     }
 
     fn continuous(&self) -> Vec<(String, Type)> {
-        let inputs = self.plan.program.inputs.iter().filter(|input| input.fetched.is_none());
-        inputs
-            .filter(|i| matches!(i.domain, Domain::Continuous { .. }))
-            .map(|i| (i.ident.clone(), Type::FLOAT))
-            .collect()
+        let inputs = beside_the_key(self.plan.program);
+        inputs.map(|i| (i.ident.clone(), input_type(&i.domain, Scalar::Float).into())).collect()
     }
 
     fn site(&self) -> Vec<(String, Type)> {

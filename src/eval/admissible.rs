@@ -34,7 +34,8 @@ use super::walk::{Taken, Walk};
 use super::{Interpreter, NeedsFetch};
 use crate::program::operators::Image;
 use crate::program::{
-    BinaryOp, Comparison, CondId, ExprId, InputId, InputSet, LevelSet, Node, Program, TernaryOp, UnaryOp, Value,
+    BinaryOp, Comparison, CondId, Domain, ExprId, InputId, InputSet, LevelSet, Node, Program, Scalar, TernaryOp,
+    UnaryOp, Value,
 };
 
 /// Most evaluations that are followed at one point.
@@ -58,24 +59,28 @@ pub struct Admissible {
     pub outcomes: Vec<Possible>,
     /// There were too many evaluations to follow, and everything is admitted.
     pub everything: bool,
+    /// The types of the components, which say what their values are carried as.
+    scalars: Vec<Scalar>,
 }
 
 impl Admissible {
     /// Returns whether a result is admissible.
     pub fn contains(&self, row: Option<usize>, values: &[f32]) -> bool {
-        let fits = |possible: &Possible| {
-            possible.values.len() == values.len() && possible.values.iter().zip(values).all(|(i, v)| i.contains(*v))
-        };
+        let fits = |possible: &Possible| possible.values.len() == values.len() && self.admits(possible, values);
         self.everything || self.outcomes.iter().any(|possible| possible.row == row && fits(possible))
     }
 
     /// Returns whether a result is admissible that fetched these inputs.
     pub fn contains_fetching(&self, row: Option<usize>, values: &[f32], fetched: InputSet) -> bool {
-        let fits = |possible: &Possible| {
-            fetched.minus(possible.fetched).is_empty()
-                && possible.values.iter().zip(values).all(|(interval, value)| interval.contains(*value))
-        };
+        let fits = |possible: &Possible| fetched.minus(possible.fetched).is_empty() && self.admits(possible, values);
         self.everything || self.outcomes.iter().any(|possible| possible.row == row && fits(possible))
+    }
+
+    fn admits(&self, possible: &Possible, values: &[f32]) -> bool {
+        possible.values.iter().zip(values).zip(&self.scalars).all(|((interval, value), scalar)| match scalar {
+            Scalar::Word => interval.is_any() || (interval.lo()..=interval.hi()).contains(&scalar.read(*value)),
+            Scalar::Float | Scalar::Uint | Scalar::Int | Scalar::Bool => interval.contains(*value),
+        })
     }
 
     /// Returns whether values are admissible with whichever row.
@@ -182,7 +187,9 @@ impl<'p> IntervalInterpreter<'p> {
         self.point.extend_from_slice(point);
         self.point.resize(self.program.inputs.len(), None);
         self.choices.clear();
-        let mut all = Admissible { outcomes: Vec::new(), everything: false };
+        let components = self.program.output.components().into_iter();
+        let scalars = components.map(|component| component.scalar).collect();
+        let mut all = Admissible { outcomes: Vec::new(), everything: false, scalars };
         let (mut forks, mut checked) = (0, false);
         self.known.get_mut().fill(None);
         self.fetched.set(InputSet::default());
@@ -248,10 +255,16 @@ impl<'p> IntervalInterpreter<'p> {
     fn operation(&self, expr: ExprId) -> Result<Known, Stop> {
         Ok(match self.program.pool.node(expr) {
             Node::Const(number) => Interval::constant(number.get()).into(),
+            Node::Word(word) => Interval::word(f64::from(word)).into(),
             Node::Input(input) => match self.point[input.index()] {
                 Some(Value::Number(number)) => {
                     self.look_at(input);
-                    Interval::near(number as f32, self.slack).into()
+                    match self.program.inputs[input.index()].domain {
+                        Domain::Word => Interval::word(number).into(),
+                        Domain::Continuous { .. } | Domain::Discrete(_) => {
+                            Interval::near(number as f32, self.slack).into()
+                        }
+                    }
                 }
                 _ => return Err(Stop::Missing),
             },
@@ -282,7 +295,7 @@ impl<'p> IntervalInterpreter<'p> {
             Node::Binary(op, a, b) => {
                 let (a, b) = (self.number(a)?, self.number(b)?);
                 let image = Interval::binary(op, a.value, b.value);
-                if self.is_whole(expr) {
+                if self.is_whole(expr) || op.row().is_on_words {
                     return Ok(image.into());
                 }
                 let free = || match op {
@@ -297,6 +310,18 @@ impl<'p> IntervalInterpreter<'p> {
                     }
                     BinaryOp::WholeQuotient
                     | BinaryOp::WholeRemainder
+                    | BinaryOp::WordAdd
+                    | BinaryOp::WordSubtract
+                    | BinaryOp::WordMultiply
+                    | BinaryOp::WordQuotient
+                    | BinaryOp::WordRemainder
+                    | BinaryOp::WordAnd
+                    | BinaryOp::WordOr
+                    | BinaryOp::WordXor
+                    | BinaryOp::ShiftLeft
+                    | BinaryOp::ShiftRight
+                    | BinaryOp::WordMax
+                    | BinaryOp::WordMin
                     | BinaryOp::Atan2
                     | BinaryOp::Max
                     | BinaryOp::Min
@@ -345,7 +370,7 @@ impl<'p> IntervalInterpreter<'p> {
             return Ok(image);
         }
         let upper = self.choice(Choice::Jump(expr))?;
-        Ok(Interval::constant(if upper { image.hi() } else { image.lo() }))
+        Ok(Interval::word(if upper { image.hi() } else { image.lo() }))
     }
 }
 

@@ -306,14 +306,14 @@ impl<'p, T: Real> Machine<'p, T> {
                 self.run(trees, *yes, place, first, paths, results);
                 self.run(trees, *no, place, second, paths, results);
             }
-            Tree::Compare(op, _, _, [yes, no]) => {
+            Tree::Compare(test, _, _, [yes, no]) => {
                 if let Some(code) = &self.code[tree.index()] {
                     let mut split = Split::default();
                     for from in (0..rows.len()).step_by(BLOCK) {
                         let to = rows.len().min(from + BLOCK);
                         code.run(place.columns, place.start, &rows[from..to], &mut self.registers);
                         let [a, b] = [0, 1].map(|i| self.registers.argument(code.outputs[i], to - from));
-                        split.add(rows, from..to, &mut self.rest, |_, k| u64::from(op.holds(a.at(k), b.at(k))));
+                        split.add(rows, from..to, &mut self.rest, |_, k| u64::from(test.holds(a.at(k), b.at(k))));
                     }
                     let (first, second) = split.finish(rows, &self.rest);
                     self.run(trees, *yes, place, first, paths, results);

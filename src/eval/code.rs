@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 
 use super::columns::{Column, Columns};
-use super::residual::{Term, TermId};
+use super::residual::{Term, TermId, Test};
 use crate::program::{BinaryOp, Comparison, InputId, Real, TernaryOp, UnaryOp};
 
 /// Most rows that go through an instruction at once: a few registers of this fit the first-level cache.
@@ -27,7 +27,7 @@ enum Instruction<T> {
     Unary(UnaryOp, Operand<T>),
     Binary(BinaryOp, Operand<T>, Operand<T>),
     Ternary(TernaryOp, Operand<T>, Operand<T>, Operand<T>),
-    Compare(Comparison, Operand<T>, Operand<T>),
+    Compare(Test, Operand<T>, Operand<T>),
     Choose(Operand<T>, Operand<T>, Operand<T>),
 }
 
@@ -120,8 +120,8 @@ impl<T: Real> Code<T> {
                     let [a, b, c] = [a, b, c].map(|operand| registers.argument(operand, len));
                     ternary(op, out, a, b, c);
                 }
-                Instruction::Compare(op, a, b) => {
-                    compare(op, out, registers.argument(a, len), registers.argument(b, len));
+                Instruction::Compare(test, a, b) => {
+                    compare(test, out, registers.argument(a, len), registers.argument(b, len));
                 }
                 Instruction::Choose(condition, a, b) => {
                     let [condition, a, b] = [condition, a, b].map(|operand| registers.argument(operand, len));
@@ -164,11 +164,12 @@ impl<T: Real> Compiler<'_, T> {
         }
         let instruction = match self.terms[term.index()] {
             Term::Const(number) => return Operand::Const(T::from_f64(number.get())),
+            Term::Word(word) => return Operand::Const(T::from_word(word)),
             Term::Input(input) | Term::Index(input) => Instruction::Load(input),
             Term::Unary(op, a) => Instruction::Unary(op, self.place(a)),
             Term::Binary(op, a, b) => Instruction::Binary(op, self.place(a), self.place(b)),
             Term::Ternary(op, a, b, c) => Instruction::Ternary(op, self.place(a), self.place(b), self.place(c)),
-            Term::Compare(op, a, b) => Instruction::Compare(op, self.place(a), self.place(b)),
+            Term::Compare(test, a, b) => Instruction::Compare(test, self.place(a), self.place(b)),
             Term::Choose(condition, a, b) => Instruction::Choose(self.place(condition), self.place(a), self.place(b)),
         };
         let register = self.registers;
@@ -274,13 +275,14 @@ fn binary<T: Real>(op: BinaryOp, out: &mut [T], a: Argument<'_, T>, b: Argument<
     }
 }
 
-fn compare<T: Real>(op: Comparison, out: &mut [T], a: Argument<'_, T>, b: Argument<'_, T>) {
+fn compare<T: Real>(test: Test, out: &mut [T], a: Argument<'_, T>, b: Argument<'_, T>) {
     let [no, yes] = [0.0, 1.0].map(T::from_f64);
     let truth = |holds: bool| if holds { yes } else { no };
-    match op {
-        Comparison::Less => map2(out, a, b, |a, b| truth(a < b)),
-        Comparison::LessEqual => map2(out, a, b, |a, b| truth(a <= b)),
-        Comparison::Equal => map2(out, a, b, |a, b| truth(a == b)),
+    match test {
+        Test { op: Comparison::Less, words: false } => map2(out, a, b, |a, b| truth(a < b)),
+        Test { op: Comparison::LessEqual, words: false } => map2(out, a, b, |a, b| truth(a <= b)),
+        Test { op: Comparison::Equal, words: false } => map2(out, a, b, |a, b| truth(a == b)),
+        Test { words: true, .. } => map2(out, a, b, |a, b| truth(test.holds(a, b))),
     }
 }
 

@@ -19,7 +19,7 @@ pub const ABSENT: u8 = u8::MAX;
 pub enum Column<T> {
     /// Indices of levels; [`ABSENT`] where a fetched input is absent.
     Levels(Vec<u8>),
-    /// Numbers.
+    /// Numbers, or words as they are carried ([`Real::from_word`]).
     Numbers {
         /// The number of each row; anything where it is absent.
         values: Vec<T>,
@@ -45,6 +45,8 @@ pub struct Columns<T> {
     /// Number of levels per input; 0 for continuous ones.
     counts: Vec<usize>,
     fetched: InputSet,
+    /// The inputs that are words.
+    words: InputSet,
     /// The inputs that are absent somewhere.
     gaps: InputSet,
 }
@@ -98,17 +100,19 @@ impl<T: Real> Columns<T> {
     pub fn new(program: &Program) -> Self {
         let empty = |domain: &Domain| match domain {
             Domain::Discrete(_) => Column::Levels(Vec::new()),
-            Domain::Continuous { .. } => Column::Numbers { values: Vec::new(), present: None },
+            Domain::Continuous { .. } | Domain::Word => Column::Numbers { values: Vec::new(), present: None },
         };
         let count = |domain: &Domain| match domain {
             Domain::Discrete(levels) => levels.count(),
-            Domain::Continuous { .. } => 0,
+            Domain::Continuous { .. } | Domain::Word => 0,
         };
+        let words = program.input_ids().filter(|(_, input)| input.domain == Domain::Word);
         Self {
             len: 0,
             columns: program.inputs.iter().map(|input| empty(&input.domain)).collect(),
             counts: program.inputs.iter().map(|input| count(&input.domain)).collect(),
             fetched: program.fetched,
+            words: words.fold(InputSet::default(), |all, (id, _)| all.or(InputSet::one(id))),
             gaps: InputSet::default(),
         }
     }
@@ -200,7 +204,7 @@ impl<T: Real> Columns<T> {
                 None => self.gap(row, input)?,
             }
         }
-        for (column, value) in self.columns.iter_mut().zip(point) {
+        for (index, (column, value)) in self.columns.iter_mut().zip(point).enumerate() {
             match column {
                 Column::Levels(levels) => levels.push(match value {
                     Some(Value::Level(level)) => *level,
@@ -211,7 +215,10 @@ impl<T: Real> Columns<T> {
                         Some(Value::Number(number)) => Some(*number),
                         _ => None,
                     };
-                    values.push(T::from_f64(number.unwrap_or(0.0)));
+                    values.push(match self.words.contains(InputId::new(index)) {
+                        true => T::from_word(number.unwrap_or(0.0) as u32),
+                        false => T::from_f64(number.unwrap_or(0.0)),
+                    });
                     match (present, number) {
                         (Some(present), number) => present.push(number.is_some()),
                         (None, Some(_)) => {}
@@ -246,6 +253,7 @@ impl<T: Real> Columns<T> {
             columns: self.columns.iter().map(pick).collect(),
             counts: self.counts.clone(),
             fetched: self.fetched,
+            words: self.words,
             gaps: self.gaps,
         }
     }
@@ -326,6 +334,9 @@ impl<T: Real> Columns<T> {
     pub fn value(&self, row: usize, input: InputId) -> Option<Value> {
         self.is_present(row, input).then(|| match self.column(input) {
             Column::Levels(levels) => Value::Level(levels[row]),
+            Column::Numbers { values, .. } if self.words.contains(input) => {
+                Value::Number(f64::from(values[row].to_word()))
+            }
             Column::Numbers { values, .. } => Value::Number(values[row].to_f64()),
         })
     }
@@ -338,7 +349,7 @@ impl<T: Real> Columns<T> {
     /// Returns whether these are points of `program`.
     pub fn fit(&self, program: &Program) -> bool {
         let empty = Self::new(program);
-        self.counts == empty.counts && self.fetched == empty.fetched
+        self.counts == empty.counts && self.fetched == empty.fetched && self.words == empty.words
     }
 }
 

@@ -52,6 +52,11 @@ impl Interval {
         Self::around(value, value)
     }
 
+    /// Exactly this number, a word or another whole one.
+    pub fn word(word: f64) -> Self {
+        Self { lo: word, hi: word }
+    }
+
     /// Any value from `slack` below this one to `slack` above.
     pub fn near(value: f32, slack: f64) -> Self {
         Self::around(f64::from(value) - slack, f64::from(value) + slack)
@@ -158,6 +163,13 @@ impl Interval {
             Op::Floor => a.steps(f64::floor),
             Op::Round => a.steps(f64::round_ties_even),
             Op::Trunc => a.steps(f64::trunc),
+            // Monotonous, and a word is any number of 32 bits.
+            Op::WordOfNumber => Self { lo: op.apply(a.lo), hi: op.apply(a.hi) },
+            Op::WordNot => Self { lo: op.apply(a.hi), hi: op.apply(a.lo) },
+            // Whole numbers are always known.
+            Op::WordOfWhole if a.lo == a.hi => Self::word(op.apply(a.lo)),
+            Op::WordOfWhole => Self::ANY,
+            Op::NumberOfWord => Self::around(a.lo, a.hi),
             Op::Sign => a.steps(|a| if a == 0.0 { 0.0 } else { a.signum() }),
             Op::Saturate => a.steps(|a| a.clamp(0.0, 1.0)),
             Op::Fract if a.lo.floor() == a.hi.floor() => a.subtract(Self::constant(a.lo.floor())),
@@ -219,6 +231,21 @@ impl Interval {
                 Self::constant(op.apply(a.lo, b.lo))
             }
             BinaryOp::WholeQuotient | BinaryOp::WholeRemainder => Self::ANY,
+            BinaryOp::WordAdd
+            | BinaryOp::WordSubtract
+            | BinaryOp::WordMultiply
+            | BinaryOp::WordQuotient
+            | BinaryOp::WordRemainder
+            | BinaryOp::WordAnd
+            | BinaryOp::WordOr
+            | BinaryOp::WordXor
+            | BinaryOp::ShiftLeft
+            | BinaryOp::ShiftRight
+            | BinaryOp::WordMax
+            | BinaryOp::WordMin => {
+                let ((lo, hi), _) = op.image((a.lo, a.hi), (b.lo, b.hi));
+                Self { lo, hi }
+            }
             BinaryOp::Max => Self { lo: a.lo.max(b.lo), hi: a.hi.max(b.hi) },
             BinaryOp::Min => Self { lo: a.lo.min(b.lo), hi: a.hi.min(b.hi) },
             BinaryOp::Atan2 => a.angle(b),

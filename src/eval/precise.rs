@@ -16,7 +16,7 @@ use astro_float_num::{BigFloat, Consts, RoundingMode, Sign};
 
 use super::walk::Walk;
 use crate::program::{
-    BinaryOp, Comparison, CondId, ExprId, InputId, LevelSet, Node, Program, TernaryOp, UnaryOp, Value,
+    BinaryOp, Comparison, CondId, Domain, ExprId, InputId, LevelSet, Node, Program, TernaryOp, UnaryOp, Value,
 };
 
 /// Bits of every number.
@@ -137,6 +137,7 @@ impl<'p> Precise<'p> {
         }
         let value = match self.program.pool.node(expr) {
             Node::Const(number) => self.constant(number.get()),
+            Node::Word(word) => number(f64::from(word)),
             Node::Input(input) => self.input(input)?,
             Node::Index(input) => match self.point[input.index()] {
                 Some(Value::Level(level)) => self.constant(f64::from(level)),
@@ -178,7 +179,7 @@ impl<'p> Precise<'p> {
             // A level where a number is wanted does not occur in a checked program.
             Some(Value::Level(_)) | None => return Err(Unknown::Absent(input)),
         };
-        Ok(match self.beside {
+        Ok(match self.beside.filter(|_| self.program.inputs[input.index()].domain != Domain::Word) {
             Some(direction) => add(&value, &step(direction, input.index() + 1)),
             None => value,
         })
@@ -225,6 +226,8 @@ impl<'p> Precise<'p> {
             Op::Tan => a.tan(BITS, ROUND, cc),
             Op::Tanh => a.tanh(BITS, ROUND, cc),
             Op::Trunc => a.int(),
+            // Words are exact in `f64`.
+            Op::WordNot | Op::WordOfNumber | Op::WordOfWhole | Op::NumberOfWord => number(op.apply(to_f64(a))),
         }
     }
 
@@ -235,7 +238,20 @@ impl<'p> Precise<'p> {
             BinaryOp::Multiply => multiply(a, b),
             BinaryOp::Divide => divide(a, b),
             BinaryOp::Remainder => subtract(a, &multiply(b, &divide(a, b).int())),
-            BinaryOp::WholeQuotient | BinaryOp::WholeRemainder => number(op.apply(to_f64(a), to_f64(b))),
+            BinaryOp::WholeQuotient
+            | BinaryOp::WholeRemainder
+            | BinaryOp::WordAdd
+            | BinaryOp::WordSubtract
+            | BinaryOp::WordMultiply
+            | BinaryOp::WordQuotient
+            | BinaryOp::WordRemainder
+            | BinaryOp::WordAnd
+            | BinaryOp::WordOr
+            | BinaryOp::WordXor
+            | BinaryOp::ShiftLeft
+            | BinaryOp::ShiftRight
+            | BinaryOp::WordMax
+            | BinaryOp::WordMin => number(op.apply(to_f64(a), to_f64(b))),
             BinaryOp::Atan2 => self.angle(a, b),
             BinaryOp::Max => a.max(b),
             BinaryOp::Min => a.min(b),

@@ -48,6 +48,7 @@ impl TermId {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Term {
     Const(Number),
+    Word(u32),
     Input(InputId),
     /// The index of a level.
     Index(InputId),
@@ -55,9 +56,24 @@ pub(super) enum Term {
     Binary(BinaryOp, TermId, TermId),
     Ternary(TernaryOp, TermId, TermId, TermId),
     /// 1 if the comparison holds, and otherwise 0.
-    Compare(Comparison, TermId, TermId),
+    Compare(Test, TermId, TermId),
     /// The second if the first is not 0, and otherwise the third.
     Choose(TermId, TermId, TermId),
+}
+
+/// A comparison of two numbers, or of two words.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct Test {
+    pub(super) op: Comparison,
+    pub(super) words: bool,
+}
+
+impl Test {
+    /// Returns whether it holds.
+    #[inline]
+    pub(super) fn holds<T: Real>(self, a: T, b: T) -> bool {
+        self.op.holds_of(self.words, a, b)
+    }
 }
 
 /// A tree in a [`Residual`].
@@ -78,7 +94,7 @@ pub(super) enum Tree {
     /// Does the fetched input have one of the levels?
     Level(InputId, LevelSet, [TreeId; 2]),
     /// Does the comparison hold?
-    Compare(Comparison, TermId, TermId, [TreeId; 2]),
+    Compare(Test, TermId, TermId, [TreeId; 2]),
     /// The result: the number of the path, and a term per component.
     Leaf(u32, Vec<TermId>),
     /// Too large to write down.
@@ -123,7 +139,7 @@ pub(super) struct Residual<'p, T> {
 #[derive(Debug, Clone)]
 struct Known {
     levels: Vec<LevelSet>,
-    comparisons: Vec<((Comparison, TermId, TermId), bool)>,
+    comparisons: Vec<((Test, TermId, TermId), bool)>,
     fetched: InputSet,
     /// Rows and lines before these are known not to apply.
     row: usize,
@@ -135,7 +151,7 @@ struct Known {
 enum Stop {
     Need(InputId),
     Level(InputId, LevelSet),
-    Compare(Comparison, TermId, TermId),
+    Compare(Test, TermId, TermId),
     TooLarge,
 }
 
@@ -177,7 +193,7 @@ impl<'p, T: Real> Residual<'p, T> {
     pub(super) fn specialise(&mut self, levels: &[u8]) -> TreeId {
         let known = |(id, input): (InputId, &crate::program::Input)| match &input.domain {
             Domain::Discrete(all) if input.fetched.is_some() => LevelSet::all(all.count()),
-            Domain::Discrete(_) | Domain::Continuous { .. } => LevelSet::one(levels[id.index()]),
+            Domain::Discrete(_) | Domain::Continuous { .. } | Domain::Word => LevelSet::one(levels[id.index()]),
         };
         let known = Known {
             levels: self.program.input_ids().map(known).collect(),
@@ -292,12 +308,13 @@ impl<'p, T: Real> Residual<'p, T> {
                 }
             }
             Cond::Compare(op, a, b) => {
+                let test = self.test(*op, *a);
                 let (a, b) = (self.number(known, *a)?, self.number(known, *b)?);
                 if let (Some(a), Some(b)) = (self.constant(a), self.constant(b)) {
-                    return Ok(op.holds(a, b));
+                    return Ok(test.holds(a, b));
                 }
-                let decided = known.comparisons.iter().find(|(test, _)| *test == (*op, a, b));
-                decided.map(|(_, outcome)| *outcome).ok_or(Stop::Compare(*op, a, b))
+                let decided = known.comparisons.iter().find(|(known, _)| *known == (test, a, b));
+                decided.map(|(_, outcome)| *outcome).ok_or(Stop::Compare(test, a, b))
             }
             Cond::Not(a) => Ok(!self.holds(known, *a)?),
             Cond::And(parts) => {
@@ -331,6 +348,7 @@ impl<'p, T: Real> Residual<'p, T> {
         self.step()?;
         let term = match self.program.pool.node(expr) {
             Node::Const(number) => self.fixed(T::from_f64(number.get())),
+            Node::Word(word) => self.term(Term::Word(word)),
             Node::Input(input) => {
                 self.need(known, input)?;
                 self.term(Term::Input(input))
@@ -346,14 +364,14 @@ impl<'p, T: Real> Residual<'p, T> {
             Node::Unary(op, a) => {
                 let a = self.number(known, a)?;
                 match self.constant(a) {
-                    Some(a) => self.fixed(T::unary(op, a)),
+                    Some(a) => self.made(op.row().gives_word, T::unary(op, a)),
                     None => self.term(Term::Unary(op, a)),
                 }
             }
             Node::Binary(op, a, b) => {
                 let (a, b) = (self.number(known, a)?, self.number(known, b)?);
                 match (self.constant(a), self.constant(b)) {
-                    (Some(a), Some(b)) => self.fixed(T::binary(op, a, b)),
+                    (Some(a), Some(b)) => self.made(op.row().is_on_words, T::binary(op, a, b)),
                     _ => self.term(Term::Binary(op, a, b)),
                 }
             }
@@ -410,8 +428,9 @@ impl<'p, T: Real> Residual<'p, T> {
             Cond::Compare(op, a, b) => match self.holds(known, condition) {
                 Ok(holds) => Ok(if holds { yes } else { no }),
                 Err(Stop::Compare(..)) => {
+                    let test = self.test(*op, *a);
                     let (a, b) = (self.number(known, *a)?, self.number(known, *b)?);
-                    Ok(self.term(Term::Compare(*op, a, b)))
+                    Ok(self.term(Term::Compare(test, a, b)))
                 }
                 Err(stop) => Err(stop),
             },
@@ -447,6 +466,7 @@ impl<'p, T: Real> Residual<'p, T> {
     fn constant(&self, term: TermId) -> Option<T> {
         match self.terms[term.index()] {
             Term::Const(number) => Some(T::from_f64(number.get())),
+            Term::Word(word) => Some(T::from_word(word)),
             Term::Input(_)
             | Term::Index(_)
             | Term::Unary(..)
@@ -455,6 +475,16 @@ impl<'p, T: Real> Residual<'p, T> {
             | Term::Compare(..)
             | Term::Choose(..) => None,
         }
+    }
+
+    /// The comparison of two expressions, of which one is `a`.
+    fn test(&self, op: Comparison, a: ExprId) -> Test {
+        Test { op, words: self.program.pool.is_word(a) }
+    }
+
+    /// The result of an operation on constants.
+    fn made(&mut self, is_word: bool, value: T) -> TermId {
+        if is_word { self.term(Term::Word(value.to_word())) } else { self.fixed(value) }
     }
 
     fn fixed(&mut self, value: T) -> TermId {

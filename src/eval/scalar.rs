@@ -1,7 +1,7 @@
 //! The reference interpreter: one point at a time, by the book.
 
 use super::walk::{Taken, Walk};
-use crate::program::{Comparison, CondId, ExprId, InputId, InputSet, LevelSet, Node, Program, Real, Value};
+use crate::program::{Comparison, CondId, Domain, ExprId, InputId, InputSet, LevelSet, Node, Program, Real, Value};
 
 /// The result at one point.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,7 +10,8 @@ pub struct Outcome<T> {
     pub row: Option<usize>,
     /// The line of that row that applied; `None` where the default gave the value.
     pub line: Option<usize>,
-    /// The result, one number per component of the output.
+    /// The result, one number per component of the output; of words, what carries them
+    /// ([`Output::numbers`](crate::program::Output::numbers) gives the numbers).
     pub values: Vec<T>,
     /// The inputs that were fetched, each once.
     pub fetched: InputSet,
@@ -98,7 +99,12 @@ impl<'p, T: Real> Interpreter<'p, T> {
     fn load(&mut self, input: InputId) -> Result<(), NeedsFetch> {
         match self.point.get(input.index()).copied().flatten() {
             Some(Value::Level(level)) => self.levels[input.index()] = level,
-            Some(Value::Number(number)) => self.numbers[input.index()] = T::from_f64(number),
+            Some(Value::Number(number)) => {
+                self.numbers[input.index()] = match self.program.inputs[input.index()].domain {
+                    Domain::Word => T::from_word(number as u32),
+                    Domain::Continuous { .. } | Domain::Discrete(_) => T::from_f64(number),
+                }
+            }
             None => return Err(NeedsFetch(input)),
         }
         Ok(())
@@ -131,6 +137,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
         }
         let value = match self.program.pool.node(expr) {
             Node::Const(number) => T::from_f64(number.get()),
+            Node::Word(word) => T::from_word(word),
             Node::Input(input) => {
                 self.need(input)?;
                 self.numbers[input.index()]
@@ -169,8 +176,9 @@ impl<'p, T: Real> Walk<'p> for Interpreter<'p, T> {
     }
 
     fn compare(&mut self, _: CondId, op: Comparison, a: ExprId, b: ExprId) -> Result<bool, NeedsFetch> {
+        let words = self.program.pool.is_word(a);
         let (a, b) = (self.number(a)?, self.number(b)?);
-        Ok(op.holds(a, b))
+        Ok(op.holds_of(words, a, b))
     }
 }
 

@@ -154,7 +154,7 @@ impl<'p, T: Real> Witness<'p, T> {
             line,
             line_condition,
             steps,
-            values: outcome.values.into_iter().map(T::to_f64).collect(),
+            values: self.program.output.numbers(&outcome.values),
             fetched: outcome.fetched,
             precision: self.precision,
         })
@@ -197,7 +197,7 @@ impl<'p, T: Real> Witness<'p, T> {
             Cond::Level(input, _) => self.input_fact(*input, facts),
             Cond::Compare(_, a, b) => {
                 for side in [*a, *b] {
-                    if program.pool.constant(side).is_none() {
+                    if program.pool.known(side).is_none() {
                         let value = self.value(side)?;
                         note(facts, format!("{} is {value}", self.expr(side)));
                     }
@@ -236,7 +236,11 @@ impl<'p, T: Real> Witness<'p, T> {
 
     /// The value of an expression, as it is shown.
     fn value(&mut self, expr: ExprId) -> Result<String, NeedsFetch> {
-        Ok(self.precision.show(self.interpreter.number(expr)?.to_f64()))
+        let value = self.interpreter.number(expr)?;
+        Ok(match self.program.pool.is_word(expr) {
+            true => value.to_word().to_string(),
+            false => self.precision.show(value.to_f64()),
+        })
     }
 
     fn printer(&self) -> Printer<'p> {

@@ -180,7 +180,7 @@ impl<'p> Search<'p> {
             point[id.index()] = match input.domain {
                 _ if input.fetched.is_some() => None,
                 Domain::Discrete(_) => Some(Value::Level(levels[id.index()])),
-                Domain::Continuous { .. } => Some(usual(input)),
+                Domain::Continuous { .. } | Domain::Word => Some(usual(input)),
             };
         }
         let combinations = std::mem::take(&mut self.combinations);
@@ -212,7 +212,9 @@ impl<'p> Search<'p> {
                         Domain::Discrete(levels) => {
                             (0..levels.count()).map(|level| Value::Level(level as u8)).collect()
                         }
-                        Domain::Continuous { lo, hi, .. } => lattice(*lo, *hi).map(Value::Number).into(),
+                        domain @ (Domain::Continuous { .. } | Domain::Word) => {
+                            lattice(domain).map(Value::Number).into()
+                        }
                     };
                     // The first value is to be tried first, and the list is worked off from its end.
                     for value in values.into_iter().rev() {
@@ -238,7 +240,7 @@ impl<'p> Search<'p> {
         });
         Ok(Some(Arrival {
             line,
-            values: outcome.values.iter().map(|value| f64::from(*value)).collect(),
+            values: program.output.numbers(&outcome.values),
             deviations: deviations.count(),
             assumed: judged,
             point: point.to_vec(),
@@ -284,12 +286,14 @@ fn usual(input: &crate::program::Input) -> Value {
     input.default.unwrap_or(match &input.domain {
         Domain::Discrete(_) => Value::Level(0),
         Domain::Continuous { lo, hi, .. } => Value::Number(lo / 2.0 + hi / 2.0),
+        Domain::Word => Value::Number(0.0),
     })
 }
 
 /// Five numbers of a range.
-fn lattice(lo: f64, hi: f64) -> [f64; 5] {
-    [0.5, 0.25, 0.75, 0.0, 1.0].map(|share| lo * (1.0 - share) + hi * share)
+fn lattice(domain: &Domain) -> [f64; 5] {
+    let (lo, hi) = domain.span();
+    [0.5, 0.25, 0.75, 0.0, 1.0].map(|share| domain.point(lo * (1.0 - share) + hi * share))
 }
 
 /// Values of the continuous inputs that guards, lines and assumptions look at:
@@ -303,10 +307,10 @@ fn combinations(program: &Program, row: usize) -> Vec<Vec<(InputId, f64)>> {
         .iter()
         .filter_map(|id| match &program.inputs[id.index()] {
             input if input.fetched.is_some() => None,
-            input => match input.domain {
-                Domain::Continuous { lo, hi, .. } => {
+            input => match &input.domain {
+                domain @ (Domain::Continuous { .. } | Domain::Word) => {
                     let usual = usual(input);
-                    Some((id, lattice(lo, hi).into_iter().filter(|value| Value::Number(*value) != usual).collect()))
+                    Some((id, lattice(domain).into_iter().filter(|value| Value::Number(*value) != usual).collect()))
                 }
                 Domain::Discrete(_) => None,
             },

@@ -29,7 +29,10 @@ pub(super) fn of<T: Real>(witness: &mut Witness<'_, T>, values: &[ExprId]) -> Re
     let taken = inputs.chain(components.iter().map(|component| component.name.clone()));
     let mut steps = Steps { taken: taken.collect(), witness, done: HashMap::new(), list: Vec::new(), anonymous: 0 };
     // Levels are numbered inside; only the numbers themselves are worth deriving.
-    let numbers = values.iter().zip(&components).filter(|(_, component)| component.scalar == Scalar::Float);
+    let numbers = values
+        .iter()
+        .zip(&components)
+        .filter(|(_, component)| matches!(component.scalar, Scalar::Float | Scalar::Word));
     for (root, component) in numbers {
         steps.root(*root, &component.name)?;
     }
@@ -73,6 +76,7 @@ impl<T: Real> Steps<'_, '_, T> {
         let node = self.witness.node(expr);
         let operands: Vec<ExprId> = match node {
             Node::Const(number) => return Ok(number.get().to_string()),
+            Node::Word(word) => return Ok(word.to_string()),
             Node::Input(input) => return Ok(self.witness.program.inputs[input.index()].name.clone()),
             Node::Index(input) => return Ok(print::index(&self.witness.program.inputs[input.index()])),
             Node::Result(_) => return Ok("value".to_owned()),
@@ -138,7 +142,7 @@ impl<T: Real> Steps<'_, '_, T> {
 fn written(node: Node, operands: &[String]) -> String {
     let infix = |symbol: &str| operands.join(&format!(" {symbol} "));
     let form = |notation: Notation| match notation {
-        Notation::Function(..) => format!("{}({})", notation.name(), operands.join(", ")),
+        Notation::Function(..) | Notation::Shared(_) => format!("{}({})", notation.name(), operands.join(", ")),
         // In parentheses, as the operand may be a negative number.
         Notation::Prefix(symbol) => format!("{}({})", symbol.symbol(), operands.join(", ")),
         Notation::Infix(symbol) => infix(symbol.symbol()),
@@ -147,6 +151,8 @@ fn written(node: Node, operands: &[String]) -> String {
         Node::Unary(op, _) => form(op.row().notation),
         Node::Binary(op, ..) => form(op.row().notation),
         Node::Ternary(op, ..) => form(op.row().notation),
-        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => infix(","),
+        Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => {
+            infix(",")
+        }
     }
 }

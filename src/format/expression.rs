@@ -79,7 +79,7 @@ fn spaced(tokens: &[(crate::diag::Span, Token<'_>)], index: usize, inside: Optio
     let before = tokens[index - 1].1;
     match (before, token) {
         (_, Token::Symbol("," | ";" | ":" | "::" | ")" | "]" | ".") | Token::End) => false,
-        (Token::Symbol("(" | "[" | "!" | "." | "::"), _) => false,
+        (Token::Symbol("(" | "[" | "!" | "~" | "." | "::"), _) => false,
         (Token::Symbol("{"), _) | (_, Token::Symbol("}")) => inside == Some(Pair::Block),
         (Token::Symbol("-"), _) => is_binary(tokens, index - 1),
         (Token::Word(word), Token::Symbol("(" | "[")) => is_keyword(word),
@@ -131,6 +131,7 @@ mod tests {
         assert_eq!(one("sin(s*x)/s|x=x0..x1"), "sin(s * x) / s | x = x0 .. x1");
         assert_eq!(one("sum( n in gauss,n.y*(a).x )- 1"), "sum(n in gauss, n.y * (a).x) - 1");
         assert_eq!(one("x in {-1,0}"), "x in {-1, 0}");
+        assert_eq!(one("(w>>22)^~ w|0xFF"), "(w >> 22) ^ ~w | 0xFF");
         assert_eq!(one("[a :: b if c==k::-1]++ [d]"), "[a::b if c == k::-1] ++ [d]");
     }
 

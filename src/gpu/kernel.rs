@@ -190,7 +190,8 @@ pub(super) fn plain_words(
         }
         for (input, domain) in &inputs {
             match domain {
-                Domain::Continuous { .. } => words.push(columns.numbers(*input)[row].to_bits()),
+                // A word by its bits, as a number.
+                Domain::Continuous { .. } | Domain::Word => words.push(columns.numbers(*input)[row].to_bits()),
                 Domain::Discrete(_) if entry == Entry::Key => {}
                 Domain::Discrete(levels) => {
                     let level = columns.levels(*input)[row];

@@ -129,7 +129,7 @@ impl Knowledge {
             return *done;
         }
         let result = match pool.node(expr) {
-            Node::Const(_) | Node::Input(_) | Node::Result(_) => expr,
+            Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Result(_) => expr,
             Node::Index(input) => match self.levels[input.index()] {
                 one if one.0.is_power_of_two() => pool.number(f64::from(one.0.trailing_zeros())),
                 _ => expr,

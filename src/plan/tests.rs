@@ -101,6 +101,7 @@ fn point(random: &mut Random, program: &Program, state: usize) -> Vec<Option<Val
     let values = program.input_ids().map(|(id, input)| match (&input.domain, input.fetched) {
         (Domain::Discrete(_), None) => Value::Level(levels[id.index()]),
         (Domain::Discrete(known), Some(_)) => Value::Level(random.below(known.count()) as u8),
+        (Domain::Word, _) => Value::Number(random.below(1 << 32) as f64),
         (Domain::Continuous { lo, hi, .. }, _) => {
             Value::Number(f64::from((lo + (hi - lo) * random.below(10_000) as f64 / 9_999.0) as f32))
         }

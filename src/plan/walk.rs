@@ -96,6 +96,7 @@ impl<'a, 'p> Walker<'a, 'p> {
                         point[input.index()] = Some(match plan.program.inputs[input.index()].domain {
                             Domain::Discrete(_) => Value::Level(0),
                             Domain::Continuous { lo, .. } => Value::Number(lo),
+                            Domain::Word => Value::Number(0.0),
                         });
                         interpreter.place(&point)?;
                     }
@@ -139,6 +140,7 @@ impl<'a, 'p> Walker<'a, 'p> {
     fn result(&self, map: ExprId, values: &[f32]) -> f32 {
         match self.program.pool.node(map) {
             Node::Const(number) => number.get() as f32,
+            Node::Word(word) => f32::from_word(word),
             Node::Result(component) => values.get(usize::from(component)).copied().unwrap_or(f32::NAN),
             Node::Unary(op, a) => f32::unary(op, self.result(a, values)),
             Node::Binary(op, a, b) => f32::binary(op, self.result(a, values), self.result(b, values)),

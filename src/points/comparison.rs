@@ -57,7 +57,7 @@ impl<'p> Points<'p> {
     pub fn new(program: &'p Program, effort: Effort) -> Self {
         let continuous = program.input_ids().filter(|(_, input)| input.fetched.is_none());
         let continuous = continuous.filter_map(|(id, input)| match input.domain {
-            Domain::Continuous { lo, hi, .. } => Some((id, lo, hi)),
+            Domain::Continuous { .. } | Domain::Word => input.domain.range().map(|(lo, hi)| (id, lo, hi)),
             Domain::Discrete(_) => None,
         });
         let mut comparisons = Comparisons::default();
@@ -124,7 +124,7 @@ impl<'p> Points<'p> {
                 for step in 0..=steps {
                     let value = lo + (hi - lo) * step as f64 / steps as f64;
                     let mut point = point.clone();
-                    point[input.index()] = Some(single(value));
+                    point[input.index()] = Some(self.given(*input, value));
                     next.push(point);
                 }
             }
@@ -139,7 +139,7 @@ impl<'p> Points<'p> {
         for (number, point) in points.iter_mut().enumerate() {
             for (input, lo, hi) in self.continuous.clone() {
                 let high = if number < 2 { number == 1 } else { self.random.below(2) == 1 };
-                point[input.index()] = Some(single(if high { hi } else { lo }));
+                point[input.index()] = Some(self.given(input, if high { hi } else { lo }));
             }
         }
         points
@@ -148,9 +148,26 @@ impl<'p> Points<'p> {
     fn random_point(&mut self, base: &Point) -> Point {
         let mut point = base.clone();
         for (input, lo, hi) in self.continuous.clone() {
-            point[input.index()] = Some(single(lo + (hi - lo) * self.random.unit()));
+            let value = lo + (hi - lo) * self.random.unit();
+            point[input.index()] = Some(self.given(input, value));
         }
         point
+    }
+
+    /// A value of an input as every executor is given it.
+    fn given(&self, input: InputId, value: f64) -> Value {
+        given(&self.program.inputs[input.index()].domain, value)
+    }
+
+    /// A value of an input, and its neighbours.
+    fn beside(&self, input: InputId, value: f64) -> [f64; 3] {
+        match self.program.inputs[input.index()].domain {
+            Domain::Word => [value.floor(), value.floor() + 1.0, value.floor() - 1.0],
+            Domain::Continuous { .. } | Domain::Discrete(_) => {
+                let value = value as f32;
+                [value, value.next_up(), value.next_down()].map(f64::from)
+            }
+        }
     }
 
     /// Points on the lines where comparisons switch, found along each axis from a point.
@@ -163,7 +180,7 @@ impl<'p> Points<'p> {
                 }
                 let mut point = from.clone();
                 let mut difference = |me: &mut Self, value: f64| {
-                    point[input.index()] = Some(single(value));
+                    point[input.index()] = Some(me.given(input, value));
                     me.difference(&point, a, b)
                 };
                 let (at_lo, at_hi) = (difference(self, lo), difference(self, hi));
@@ -172,11 +189,10 @@ impl<'p> Points<'p> {
                 if !root.is_finite() || !(lo..=hi).contains(&root) {
                     continue;
                 }
-                let root = root as f32;
-                for value in [root, root.next_up(), root.next_down()] {
-                    if (lo..=hi).contains(&f64::from(value)) {
+                for value in self.beside(input, root) {
+                    if (lo..=hi).contains(&value) {
                         let mut point = from.clone();
-                        point[input.index()] = Some(Value::Number(f64::from(value)));
+                        point[input.index()] = Some(Value::Number(value));
                         found.push(point);
                     }
                 }
@@ -205,9 +221,10 @@ impl<'p> Points<'p> {
                 Err(NeedsFetch(input)) => {
                     let values: Vec<Value> = match &self.program.inputs[input.index()].domain {
                         Domain::Discrete(levels) => (0..levels.count() as u8).map(Value::Level).collect(),
-                        Domain::Continuous { lo, hi, .. } => {
+                        domain @ (Domain::Continuous { .. } | Domain::Word) => {
+                            let (lo, hi) = domain.span();
                             let between = lo + (hi - lo) * self.random.unit();
-                            [*lo, *hi, between].map(single).to_vec()
+                            [lo, hi, between].map(|value| given(domain, value)).to_vec()
                         }
                     };
                     for value in values.into_iter().rev() {
@@ -258,7 +275,7 @@ impl<'p> Points<'p> {
                     }
                     let mut tried = filled.clone();
                     let mut difference = |me: &mut Self, value: f64| {
-                        tried[input.index()] = Some(single(value));
+                        tried[input.index()] = Some(me.given(input, value));
                         me.difference(&tried, a, b)
                     };
                     let (at_lo, at_hi) = (difference(self, lo), difference(self, hi));
@@ -266,7 +283,7 @@ impl<'p> Points<'p> {
                     let between = [lo + (hi - lo) * self.random.unit(), lo + (hi - lo) * self.random.unit()];
                     for value in between.into_iter().chain([root, lo, hi]).filter(|v| (lo..=hi).contains(v)) {
                         let mut tried = filled.clone();
-                        tried[input.index()] = Some(single(value));
+                        tried[input.index()] = Some(self.given(input, value));
                         if better.is_none() && self.holds(&tried, condition) {
                             better = Some((input, value));
                         }
@@ -275,7 +292,7 @@ impl<'p> Points<'p> {
             }
             // None is better if the assumption is on fetched inputs, which are seen to later.
             let Some((input, value)) = better else { return Some(point) };
-            point[input.index()] = Some(single(value));
+            point[input.index()] = Some(self.given(input, value));
         }
         None
     }
@@ -291,7 +308,10 @@ impl<'p> Points<'p> {
             if point[id.index()].is_none() {
                 point[id.index()] = Some(match &input.domain {
                     Domain::Discrete(levels) => Value::Level(self.random.below(levels.count()) as u8),
-                    Domain::Continuous { lo, hi, .. } => single(lo + (hi - lo) * self.random.unit()),
+                    domain @ (Domain::Continuous { .. } | Domain::Word) => {
+                        let (lo, hi) = domain.span();
+                        given(domain, lo + (hi - lo) * self.random.unit())
+                    }
                 });
             }
         }
@@ -299,9 +319,9 @@ impl<'p> Points<'p> {
     }
 }
 
-/// A number as every executor gets it: rounded to `f32`.
-fn single(value: f64) -> Value {
-    Value::Number(f64::from(value as f32))
+/// A number as every executor gets it.
+fn given(domain: &Domain, value: f64) -> Value {
+    Value::Number(domain.given(value))
 }
 
 /// Collects the comparisons of a program; `step(a, b)` is one, too.

@@ -7,7 +7,7 @@
 use super::Point;
 use super::random::Random;
 use crate::eval::Interpreter;
-use crate::program::{Domain, Program, Value};
+use crate::program::{Domain, Input, Program, Value};
 
 /// Most tries for one point.
 const TRIES: usize = 50;
@@ -30,7 +30,7 @@ impl<'p> Samples<'p> {
 
     /// The examples and further points, up to `count` of these; fewer if the conditions are hard to meet.
     pub fn take(&mut self, count: usize) -> Vec<Point> {
-        let examples: Vec<Point> = self.program.examples.iter().map(|example| single(&example.inputs)).collect();
+        let examples: Vec<Point> = self.program.examples.iter().map(|example| self.given(&example.inputs)).collect();
         let mut points: Vec<Point> =
             examples.iter().filter(|point| self.satisfies_assumptions(point)).cloned().collect();
         for number in 0..count {
@@ -39,7 +39,7 @@ impl<'p> Samples<'p> {
                     Some(example) if number % 2 == 0 => self.near(example),
                     _ => self.anywhere(),
                 };
-                let point = single(&point);
+                let point = self.given(&point);
                 if self.satisfies_assumptions(&point) {
                     points.push(point);
                     break;
@@ -60,6 +60,16 @@ impl<'p> Samples<'p> {
         let inputs = self.program.inputs.iter().zip(example);
         inputs
             .map(|(input, value)| match (&input.domain, value) {
+                (Domain::Word, Some(Value::Number(number))) => {
+                    // The word itself, one beside it, or one with some other bits.
+                    let bit = f64::from(1_u32 << self.random.below(32));
+                    Some(Value::Number(input.domain.point(match self.random.below(4) {
+                        0 => *number,
+                        1 => number + 1.0,
+                        2 => number - 1.0,
+                        _ => (number + bit) % 4_294_967_296.0,
+                    })))
+                }
                 (Domain::Continuous { lo, hi, .. }, Some(Value::Number(number))) => {
                     // Now and then the very same number: what is special about an example stays so.
                     let step = if self.random.unit() < 0.25 { 0.0 } else { self.random.unit() - 0.5 };
@@ -76,6 +86,11 @@ impl<'p> Samples<'p> {
             .map(|input| {
                 Some(match &input.domain {
                     Domain::Discrete(levels) => Value::Level((self.random.unit() * levels.count() as f64) as u8),
+                    // Of all sizes.
+                    Domain::Word => {
+                        let most = f64::from(u32::MAX >> self.random.below(32));
+                        Value::Number(input.domain.point(self.random.unit() * (most + 1.0)))
+                    }
                     Domain::Continuous { lo, hi, .. } => {
                         let (lo, hi) = (lo.max(-USUAL.max(-hi)), hi.min(USUAL.max(*lo)));
                         Value::Number(lo + (hi - lo) * self.random.unit())
@@ -84,13 +99,13 @@ impl<'p> Samples<'p> {
             })
             .collect()
     }
-}
 
-/// A point as every executor gets it: rounded to `f32`.
-fn single(point: &[Option<Value>]) -> Point {
-    let round = |value: &Option<Value>| match value {
-        Some(Value::Number(number)) => Some(Value::Number(f64::from(*number as f32))),
-        other => *other,
-    };
-    point.iter().map(round).collect()
+    /// A point as every executor is given it.
+    fn given(&self, point: &[Option<Value>]) -> Point {
+        let given = |(input, value): (&Input, &Option<Value>)| match value {
+            Some(Value::Number(number)) => Some(Value::Number(input.domain.given(*number))),
+            Some(Value::Level(_)) | None => *value,
+        };
+        self.program.inputs.iter().zip(point).map(given).collect()
+    }
 }

@@ -165,6 +165,7 @@ fn typical_cases(program: &Program) -> Vec<(usize, Option<u32>)> {
     let middle = |domain: &Domain| match domain {
         Domain::Discrete(_) => Value::Level(0),
         Domain::Continuous { lo, hi, .. } => Value::Number(f64::midpoint(*lo, *hi)),
+        Domain::Word => Value::Number(0.0),
     };
     let mut point: Vec<Option<Value>> = program.inputs.iter().map(|input| Some(middle(&input.domain))).collect();
     let mut levels = vec![0; program.inputs.len()];

@@ -2,6 +2,8 @@
 //!
 //! A language spells these types and knows nothing of the kinds of output that they carry.
 
+use super::Real;
+
 /// The type of an input, or of one component of a result, in generated code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Scalar {
@@ -13,16 +15,26 @@ pub enum Scalar {
     Int,
     /// True or false; a component of a result is then 1 or 0.
     Bool,
+    /// A word, `u32`: any number of 32 bits.
+    Word,
 }
 
 impl Scalar {
-    /// The number that a word of 32 bits holds.
+    /// The component that 32 bits hold, as `f32` carries it.
     pub fn number(self, word: u32) -> f32 {
         match self {
-            Scalar::Float => f32::from_bits(word),
+            Scalar::Float | Scalar::Word => f32::from_bits(word),
             Scalar::Uint => word as f32,
             Scalar::Int => word.cast_signed() as f32,
             Scalar::Bool => f32::from(u8::from(word != 0)),
+        }
+    }
+
+    /// The number that a component stands for, of the type that carries it.
+    pub fn read<T: Real>(self, carried: T) -> f64 {
+        match self {
+            Scalar::Float | Scalar::Uint | Scalar::Int | Scalar::Bool => carried.to_f64(),
+            Scalar::Word => f64::from(carried.to_word()),
         }
     }
 }

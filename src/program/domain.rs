@@ -72,14 +72,41 @@ pub enum Domain {
         /// Unit, for messages and comments; may be empty.
         unit: String,
     },
+    /// A word: an unsigned integer of 32 bits.
+    Word,
 }
 
 impl Domain {
     /// The numbers that an input, or the index of its level, lies between.
-    pub(super) fn span(&self) -> (f64, f64) {
+    pub fn span(&self) -> (f64, f64) {
         match self {
             Domain::Discrete(levels) => (0.0, (levels.count() - 1) as f64),
             Domain::Continuous { lo, hi, .. } => (*lo, *hi),
+            Domain::Word => (0.0, f64::from(u32::MAX)),
+        }
+    }
+
+    /// The ends of a range, of real numbers or of words; nothing for levels.
+    pub fn range(&self) -> Option<(f64, f64)> {
+        match self {
+            Domain::Discrete(_) => None,
+            Domain::Continuous { .. } | Domain::Word => Some(self.span()),
+        }
+    }
+
+    /// A number as all executors are given it: rounded to `f32`, or, of a word, the whole part.
+    pub fn given(&self, number: f64) -> f64 {
+        match self {
+            Domain::Discrete(_) | Domain::Continuous { .. } => f64::from(number as f32),
+            Domain::Word => self.point(number),
+        }
+    }
+
+    /// A number as a point of the domain: itself, or, of a word, the whole part.
+    pub fn point(&self, number: f64) -> f64 {
+        match self {
+            Domain::Discrete(_) | Domain::Continuous { .. } => number,
+            Domain::Word => number.clamp(0.0, f64::from(u32::MAX)).floor(),
         }
     }
 }
@@ -164,7 +191,7 @@ impl Levels {
 pub enum Value {
     /// The index of a level.
     Level(u8),
-    /// A number.
+    /// A number, or a word.
     Number(f64),
 }
 
@@ -221,6 +248,17 @@ impl StateSpace {
     }
 }
 
+/// A word as it is written: a whole number, also with an exponent, or hexadecimal digits behind `0x`.
+fn word(text: &str) -> Option<u32> {
+    match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+        Some(digits) => u32::from_str_radix(digits, 16).ok(),
+        None => {
+            let number = text.parse::<f64>().ok()?;
+            (number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number)).then_some(number as u32)
+        }
+    }
+}
+
 impl Input {
     /// Returns whether a word in data means this input.
     pub fn is_called(&self, word: &str) -> bool {
@@ -231,11 +269,11 @@ impl Input {
     pub fn least(&self) -> f64 {
         match self.domain {
             Domain::Continuous { lo, .. } => lo,
-            Domain::Discrete(_) => 0.0,
+            Domain::Discrete(_) | Domain::Word => 0.0,
         }
     }
 
-    /// Reads a value of this input: a level by name or code, or a number in the range.
+    /// Reads a value of this input: a level by name or code, a number in the range, or a word.
     ///
     /// # Errors
     /// With a message that says what is expected.
@@ -253,6 +291,14 @@ impl Input {
                 Ok(number) if (*lo..=*hi).contains(&number) => Ok(Value::Number(number)),
                 Ok(number) => Err(format!("{number} is not in the range {lo} to {hi} of `{}`", self.name)),
                 Err(_) => Err(format!("`{word}` is not a number; `{}` ranges from {lo} to {hi}", self.name)),
+            },
+            Domain::Word => match self::word(word) {
+                Some(number) => Ok(Value::Number(f64::from(number))),
+                None => Err(format!(
+                    "`{word}` is no value of `{}`, which is a whole number from 0 to {}",
+                    self.name,
+                    u32::MAX
+                )),
             },
         }
     }

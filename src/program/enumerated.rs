@@ -112,6 +112,7 @@ pub(super) fn points(program: &Program, state: usize, steps: usize) -> Vec<Point
         let values: Vec<Value> = match (&input.domain, input.fetched) {
             (Domain::Discrete(_), None) => vec![Value::Level(levels[id.index()])],
             (Domain::Discrete(levels), Some(_)) => (0..levels.count()).map(|l| Value::Level(l as u8)).collect(),
+            (Domain::Word, _) => unreachable!("there is none"),
             (Domain::Continuous { lo, hi, .. }, _) => {
                 (0..=steps).map(|i| Value::Number(lo + (hi - lo) * i as f64 / steps as f64)).collect()
             }
@@ -331,7 +332,7 @@ fn mapped(program: &Program, map: super::ExprId, value: f64) -> f64 {
         Node::Result(_) => value,
         Node::Const(number) => number.get(),
         Node::Binary(op, a, b) => op.apply(mapped(program, a, value), mapped(program, b, value)),
-        Node::Input(_) | Node::Index(_) | Node::Unary(..) | Node::Ternary(..) | Node::Select(..) => {
+        Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Unary(..) | Node::Ternary(..) | Node::Select(..) => {
             panic!("these maps are sums")
         }
     }

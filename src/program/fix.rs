@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::domain::{Input, StateSpace, Value};
+use super::domain::{Domain, Input, StateSpace, Value};
 use super::draw::Draw;
 use super::pool::{CondId, ExprId, InputSet, LevelSet, Pool};
 use super::substitute::{Meanings, Substitution};
@@ -38,6 +38,9 @@ impl Meanings for Decided<'_> {
 
     fn number(&mut self, input: InputId) -> ExprId {
         match (self.values[input.index()], self.kept[input.index()]) {
+            (Some(Value::Number(word)), _) if self.from.inputs[input.index()].domain == Domain::Word => {
+                self.pool.constant_word(word as u32)
+            }
             (Some(Value::Number(number)), _) => self.pool.number(number),
             (_, Some(kept)) => self.pool.input(kept),
             (Some(Value::Level(_)) | None, None) => unreachable!("a continuous input is a number"),
@@ -144,7 +147,7 @@ impl Program {
                 }
                 None => {
                     let new = InputId::new(inputs.len());
-                    pool.declare(new, input.domain.span());
+                    pool.declare_input(new, &input.domain);
                     kept[id.index()] = Some(new);
                     inputs.push(input.clone());
                 }

@@ -172,6 +172,7 @@ impl Meaning<'_> {
         let node = self.program.pool.node(id);
         let words = match node {
             Node::Const(number) => Words::of("number").number(number.get()),
+            Node::Word(word) => Words::of("word").word(u64::from(word)),
             Node::Input(input) => Words::of("input").word(input.index() as u64),
             Node::Index(input) => Words::of("index").word(input.index() as u64),
             Node::Result(0) => Words::of("result"),
@@ -213,6 +214,7 @@ fn domain(domain: &Domain) -> u64 {
     match domain {
         Domain::Discrete(of) => Words::of("discrete").word(levels(of)),
         Domain::Continuous { lo, hi, unit: _ } => Words::of("continuous").number(*lo).number(*hi),
+        Domain::Word => Words::of("u32"),
     }
     .hash()
 }
@@ -239,6 +241,7 @@ fn output(of: &Output) -> u64 {
         Output::Vector(size, _) => Words::of("vector").word(*size as u64),
         Output::Bool => Words::of("bool"),
         Output::Int(lo, hi) => Words::of("int").number(f64::from(*lo)).number(f64::from(*hi)),
+        Output::U32 => Words::of("u32"),
         Output::Record(fields) => {
             let words = Words::of("record").word(fields.len() as u64);
             fields.iter().fold(words, |words, (name, field)| words.text(name).word(output(field)))

@@ -417,7 +417,7 @@ impl Program {
         all.minus(used)
     }
 
-    /// The continuous inputs.
+    /// The inputs without levels: ranges of real numbers, and words.
     pub fn continuous(&self) -> InputSet {
         let continuous = self.input_ids().filter(|(id, _)| self.levels(*id).is_none());
         continuous.fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(id)))
@@ -432,7 +432,7 @@ impl Program {
     pub fn levels(&self, input: InputId) -> Option<&Levels> {
         match &self.inputs[input.index()].domain {
             Domain::Discrete(levels) => Some(levels),
-            Domain::Continuous { .. } => None,
+            Domain::Continuous { .. } | Domain::Word => None,
         }
     }
 

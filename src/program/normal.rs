@@ -156,6 +156,7 @@ impl Normaliser {
     fn lattice(&mut self, pool: &Pool, expr: ExprId) -> Option<Lattice> {
         match pool.node(expr) {
             Node::Const(number) => Some(constant(number.get())),
+            Node::Word(word) => Some(constant(f64::from(word))),
             Node::Input(input) => Some(single(Term::Input(input))),
             Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
             Node::Unary(op, a) => {

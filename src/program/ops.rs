@@ -12,6 +12,10 @@ pub trait Real: Copy + PartialOrd + std::fmt::Debug + 'static {
     fn from_f64(value: f64) -> Self;
     /// Widens, exactly.
     fn to_f64(self) -> f64;
+    /// Carries a word: as the number that it is, or, where not all words are numbers, by its bits.
+    fn from_word(word: u32) -> Self;
+    /// The word that is carried.
+    fn to_word(self) -> u32;
     /// An operation on one number.
     fn unary(op: UnaryOp, a: Self) -> Self;
     /// An operation on two numbers.
@@ -42,6 +46,12 @@ impl TernaryOp {
 }
 
 impl Comparison {
+    /// Returns whether the comparison of two words holds, or of two numbers.
+    #[inline]
+    pub fn holds_of<T: Real>(self, words: bool, a: T, b: T) -> bool {
+        if words { self.holds(a.to_word(), b.to_word()) } else { self.holds(a, b) }
+    }
+
     /// Returns whether the comparison holds; never, if an operand is NaN.
     pub fn holds<T: PartialOrd>(self, a: T, b: T) -> bool {
         match self {
@@ -61,6 +71,16 @@ impl Real for f64 {
     #[inline]
     fn to_f64(self) -> f64 {
         self
+    }
+
+    #[inline]
+    fn from_word(word: u32) -> Self {
+        f64::from(word)
+    }
+
+    #[inline]
+    fn to_word(self) -> u32 {
+        self as u32
     }
 
     #[inline]
@@ -88,6 +108,16 @@ impl Real for f32 {
     #[inline]
     fn to_f64(self) -> f64 {
         f64::from(self)
+    }
+
+    #[inline]
+    fn from_word(word: u32) -> Self {
+        f32::from_bits(word)
+    }
+
+    #[inline]
+    fn to_word(self) -> u32 {
+        self.to_bits()
     }
 
     #[inline]

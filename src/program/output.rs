@@ -5,6 +5,7 @@
 //! values tells one kind from another. Emitters go by the [`DataType`], interpreters by the
 //! number of components, and whatever shows a result by its [`Reading`].
 
+use super::Real;
 use super::data_type::{Component, DataType, Scalar};
 use super::domain::Levels;
 
@@ -18,7 +19,7 @@ pub enum Reading<'o> {
     Number(f64),
     /// True or false.
     Bool(bool),
-    /// A whole number.
+    /// A whole number, or a word.
     Int(i64),
     /// A level, by its index and its name; `?` where there is no such level.
     Level(usize, &'o str),
@@ -39,6 +40,7 @@ impl<Set> crate::table::Output<Set> {
             Output::Vector(size, _) => DataType::Vector(*size),
             Output::Bool => DataType::Scalar(Scalar::Bool),
             Output::Int(..) => DataType::Scalar(Scalar::Int),
+            Output::U32 => DataType::Scalar(Scalar::Word),
             Output::Record(fields) => {
                 DataType::Structure(fields.iter().map(|(name, of)| (name.clone(), of.data_type())).collect())
             }
@@ -49,7 +51,7 @@ impl<Set> crate::table::Output<Set> {
                 let item = of.data_type();
                 match item.leaf() {
                     scalar @ (Scalar::Uint | Scalar::Int) => array(DataType::Scalar(scalar), self.size()),
-                    Scalar::Float | Scalar::Bool => DataType::Structure(vec![
+                    Scalar::Float | Scalar::Bool | Scalar::Word => DataType::Structure(vec![
                         ("count".to_owned(), DataType::Scalar(Scalar::Uint)),
                         ("items".to_owned(), array(item, *max)),
                     ]),
@@ -85,7 +87,12 @@ impl<Set> crate::table::Output<Set> {
         use crate::table::Output;
         let named = if name.is_empty() { "value" } else { name };
         match self {
-            Output::Number(_) | Output::Bool | Output::Int(..) | Output::Enumeration(_) | Output::List { .. } => {
+            Output::Number(_)
+            | Output::Bool
+            | Output::Int(..)
+            | Output::U32
+            | Output::Enumeration(_)
+            | Output::List { .. } => {
                 all.push(named.to_owned());
             }
             Output::Vector(size, _) => {
@@ -102,6 +109,11 @@ impl<Set> crate::table::Output<Set> {
 }
 
 impl Output {
+    /// The numbers that the components of a result stand for, of the type that carries them.
+    pub fn numbers<T: Real>(&self, carried: &[T]) -> Vec<f64> {
+        self.components().iter().zip(carried).map(|(component, value)| component.scalar.read(*value)).collect()
+    }
+
     /// Reads the components of a result, one number each.
     pub fn read<'o>(&'o self, values: &[f64]) -> Reading<'o> {
         self.read_from(&mut values.iter().copied())
@@ -116,7 +128,7 @@ impl Output {
                 Reading::Record(fields.iter().map(|(name, of)| (name.as_str(), of.read_from(values))).collect())
             }
             Output::Bool => Reading::Bool(next() != 0.0),
-            Output::Int(..) => Reading::Int(next() as i64),
+            Output::Int(..) | Output::U32 => Reading::Int(next() as i64),
             Output::Enumeration(levels) => level(levels, next()),
             Output::List { of, max, .. } => {
                 let length = next() as usize;
@@ -137,6 +149,7 @@ impl Output {
             Output::Record(fields) => {
                 format!("a record of {}", fields.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(", "))
             }
+            Output::U32 => "a U32".to_owned(),
             Output::Enumeration(levels) => format!("one of the levels {}", levels.names.join(", ")),
             Output::List { .. } => "a list, written [a, b]".to_owned(),
         }

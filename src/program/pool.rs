@@ -8,10 +8,10 @@
 use std::collections::HashMap;
 
 use super::operators::{ANY, BinaryOp, Bounded, Bounds, Comparison, TernaryAlgebra, TernaryOp, UnaryAlgebra, UnaryOp};
-use super::{InputId, Real};
+use super::{Domain, InputId, Real};
 
 /// An expression in a [`Pool`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ExprId(u32);
 
 impl ExprId {
@@ -53,6 +53,9 @@ impl Number {
 pub enum Node {
     /// A constant.
     Const(Number),
+    /// A word that is a constant. Numbers and words are told apart by the form of an expression: a word is this,
+    /// an input that is one, what an operation on bits or words gives, or a choice between words.
+    Word(u32),
     /// A continuous input.
     Input(InputId),
     /// The index of the level of a discrete input. To all that tells cases apart it is a
@@ -186,11 +189,20 @@ pub struct Facts {
     /// Of a number, what it lies between wherever inputs are in their domains, also in `f32`;
     /// everything if it may be infinite or no number.
     pub range: Bounds,
+    /// True if it is a word.
+    pub word: bool,
+}
+
+impl Node {
+    /// Returns whether it is made of nothing else.
+    pub fn is_leaf(self) -> bool {
+        self.condition().is_none() && self.children().next().is_none()
+    }
 }
 
 impl Facts {
     fn leaf(inputs: InputSet) -> Self {
-        Self { depth: 1, size: 1, inputs, selects: false, whole: false, range: ANY }
+        Self { depth: 1, size: 1, inputs, selects: false, whole: false, range: ANY, word: false }
     }
 
     fn join(parts: impl IntoIterator<Item = Facts>) -> Self {
@@ -201,6 +213,7 @@ impl Facts {
             selects: all.selects || part.selects,
             whole: false,
             range: ANY,
+            word: false,
         })
     }
 }
@@ -215,8 +228,21 @@ pub struct Pool {
     labels: HashMap<ExprId, String>,
     /// By input, what its domain spans, where that was told.
     domains: Vec<Bounds>,
-    /// By component, between which whole numbers the result lies, where that was told.
-    results: Vec<Option<Bounds>>,
+    /// The inputs that are words.
+    words: InputSet,
+    /// By component, what is known of the result, where that was told.
+    results: Vec<Component>,
+}
+
+/// The knowledge of a component of the result.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Component {
+    /// A real number, or a code.
+    Any,
+    /// A whole number between two others.
+    Whole(Bounds),
+    /// A word.
+    Word,
 }
 
 /// Magnitudes beyond this are not taken for finite in `f32`, whatever was rounded on the way.
@@ -224,6 +250,12 @@ const LARGE: f64 = 1e38;
 
 /// Whole numbers up to this one are exact in `f32`, and so are their sums, differences and products up to it.
 pub(crate) const MAX_WHOLE: f64 = 16_777_216.0;
+
+/// Returns whether a number is the same word before and after it is rounded.
+fn is_one_word(number: f64) -> bool {
+    let word = |number| UnaryOp::WordOfNumber.apply(number);
+    word(number) == word(f64::from(number as f32))
+}
 
 /// Bounds that hold of what was rounded as well.
 fn widened((lo, hi): Bounds) -> Bounds {
@@ -293,9 +325,14 @@ impl Pool {
         self.exprs.iter().map(|(node, _)| *node)
     }
 
+    /// All conditions.
+    pub fn conds(&self) -> impl Iterator<Item = &Cond> {
+        self.conds.iter().map(|(cond, _)| cond)
+    }
+
     /// Names an expression; the first name stays.
     pub fn set_label(&mut self, id: ExprId, label: &str) {
-        if !matches!(self.node(id), Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_)) {
+        if !self.node(id).is_leaf() {
             self.labels.entry(id).or_insert_with(|| label.to_owned());
         }
     }
@@ -304,6 +341,22 @@ impl Pool {
     pub fn constant(&self, id: ExprId) -> Option<f64> {
         let Node::Const(number) = self.node(id) else { return None };
         Some(number.get())
+    }
+
+    /// The word that an expression is, if it is a constant one.
+    pub fn word(&self, id: ExprId) -> Option<u32> {
+        let Node::Word(word) = self.node(id) else { return None };
+        Some(word)
+    }
+
+    /// The constant number or word that an expression is, as a number.
+    pub fn known(&self, id: ExprId) -> Option<f64> {
+        self.constant(id).or_else(|| self.word(id).map(f64::from))
+    }
+
+    /// Returns whether an expression is a word.
+    pub fn is_word(&self, id: ExprId) -> bool {
+        self.expr_facts(id).word
     }
 
     /// The truth value a condition is, if it is constant.
@@ -325,8 +378,10 @@ impl Pool {
         };
         let range = self.range(node);
         let whole = self.is_whole(node, range);
-        let exact = whole || matches!(node, Node::Const(number) if f64::from(number.get() as f32) == number.get());
-        let facts = Facts { range: if exact { range } else { widened(range) }, whole, ..facts };
+        let word = self.gives_word(node);
+        let exact =
+            whole || word || matches!(node, Node::Const(number) if f64::from(number.get() as f32) == number.get());
+        let facts = Facts { range: if exact { range } else { widened(range) }, whole, word, ..facts };
         let id = ExprId(self.exprs.len() as u32);
         self.exprs.push((node, facts));
         self.expr_index.insert(node, id);
@@ -338,6 +393,7 @@ impl Pool {
         let of = |part: ExprId| self.expr_facts(part).range;
         let image: Bounded = match node {
             Node::Const(number) => ((number.get(), number.get()), None),
+            Node::Word(word) => ((f64::from(word), f64::from(word)), None),
             Node::Input(input) | Node::Index(input) => (self.domains.get(input.index()).copied().unwrap_or(ANY), None),
             Node::Result(component) => (self.result_range(component).unwrap_or(ANY), None),
             Node::Unary(op, a) if op.row().is_plain => op.image(of(a)),
@@ -359,7 +415,24 @@ impl Pool {
     }
 
     fn result_range(&self, component: u16) -> Option<Bounds> {
-        self.results.get(usize::from(component)).copied().flatten()
+        match self.results.get(usize::from(component))? {
+            Component::Any => None,
+            Component::Whole(range) => Some(*range),
+            Component::Word => Some((0.0, f64::from(u32::MAX))),
+        }
+    }
+
+    /// Returns whether a node is a word.
+    pub(super) fn gives_word(&self, node: Node) -> bool {
+        match node {
+            Node::Word(_) => true,
+            Node::Input(input) => self.words.contains(input),
+            Node::Result(component) => self.results.get(usize::from(component)) == Some(&Component::Word),
+            Node::Unary(op, _) => op.row().gives_word,
+            Node::Binary(op, ..) => op.row().is_on_words,
+            Node::Select(_, a, _) => self.is_word(a),
+            Node::Const(_) | Node::Index(_) | Node::Ternary(..) => false,
+        }
     }
 
     /// Returns whether a number that lies between some others is whole, and `f32` has all that it is made of.
@@ -370,8 +443,12 @@ impl Pool {
             && match node {
                 Node::Const(number) => number.get().fract() == 0.0,
                 Node::Index(_) => true,
-                Node::Result(component) => self.result_range(component).is_some(),
-                Node::Input(_) => false,
+                Node::Result(component) => {
+                    matches!(self.results.get(usize::from(component)), Some(Component::Whole(_)))
+                }
+                Node::Word(_) | Node::Input(_) => false,
+                // Of a word that is small, the number.
+                Node::Unary(UnaryOp::NumberOfWord, _) => true,
                 Node::Unary(op, a) => {
                     matches!(op.row().algebra, UnaryAlgebra::Negate | UnaryAlgebra::Absolute) && of(a)
                 }
@@ -405,6 +482,24 @@ impl Pool {
         self.intern(Node::Const(Number::new(if value == 0.0 { 0.0 } else { value })))
     }
 
+    /// A constant word.
+    pub fn constant_word(&mut self, word: u32) -> ExprId {
+        self.intern(Node::Word(word))
+    }
+
+    /// A value of an input that is no level, as a constant.
+    pub fn value_of(&mut self, input: InputId, value: f64) -> ExprId {
+        if self.words.contains(input) { self.constant_word(value as u32) } else { self.number(value) }
+    }
+
+    /// Says what an input can be, before it is mentioned.
+    pub(crate) fn declare_input(&mut self, input: InputId, domain: &Domain) {
+        if *domain == Domain::Word {
+            self.words = self.words.or(InputSet::one(input));
+        }
+        self.declare(input, domain.span());
+    }
+
     /// Says between which numbers an input lies, before it is mentioned.
     pub fn declare(&mut self, input: InputId, domain: Bounds) {
         if self.domains.len() <= input.index() {
@@ -413,9 +508,9 @@ impl Pool {
         self.domains[input.index()] = domain;
     }
 
-    /// Says of each component of the result between which whole numbers it lies, if it is one, before it is mentioned.
-    pub(crate) fn declare_results(&mut self, ranges: Vec<Option<Bounds>>) {
-        self.results = ranges;
+    /// Says what is known of each component of the result, before it is mentioned.
+    pub(crate) fn declare_results(&mut self, components: Vec<Component>) {
+        self.results = components;
     }
 
     /// An empty pool for programs with the results of another one's.
@@ -445,6 +540,11 @@ impl Pool {
     /// languages refuse. Folding is free in a table as written, where it is part
     /// of the meaning; this is for operands that become known later.
     pub fn folds(&self, node: Node) -> bool {
+        if self.gives_word(node) {
+            // Words are the same on every device, what a number is rounded to may be not.
+            let Node::Unary(UnaryOp::WordOfNumber, a) = node else { return true };
+            return self.constant(a).is_none_or(is_one_word);
+        }
         let known = |id| self.constant(id);
         let agree = |wide: f64, narrow: f32| narrow.is_finite() && wide as f32 == narrow;
         match node {
@@ -459,7 +559,9 @@ impl Pool {
                 [Some(a), Some(b), Some(c)] => agree(op.apply(a, b, c), f32::ternary(op, a as f32, b as f32, c as f32)),
                 _ => true,
             },
-            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => true,
+            Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => {
+                true
+            }
         }
     }
 
@@ -475,7 +577,7 @@ impl Pool {
             Node::Binary(op, a, b) => self.binary(op, a, b),
             Node::Ternary(op, a, b, c) => self.ternary(op, a, b, c),
             Node::Select(condition, a, b) => self.select(condition, a, b),
-            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => self.intern(node),
+            Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => self.intern(node),
         }
     }
 
@@ -491,18 +593,23 @@ impl Pool {
 
     /// An operation on one number.
     pub fn unary(&mut self, op: UnaryOp, a: ExprId) -> ExprId {
-        match self.constant(a) {
-            Some(a) => self.number(op.apply(a)),
+        match self.known(a) {
+            Some(a) => self.made(op.row().gives_word, op.apply(a)),
             None => self.intern(Node::Unary(op, a)),
         }
     }
 
     /// An operation on two numbers.
     pub fn binary(&mut self, op: BinaryOp, a: ExprId, b: ExprId) -> ExprId {
-        match (self.constant(a), self.constant(b)) {
-            (Some(a), Some(b)) => self.number(op.apply(a, b)),
+        match (self.known(a), self.known(b)) {
+            (Some(a), Some(b)) => self.made(op.row().is_on_words, op.apply(a, b)),
             _ => self.intern(Node::Binary(op, a, b)),
         }
+    }
+
+    /// The result of an operation on constants.
+    fn made(&mut self, is_word: bool, value: f64) -> ExprId {
+        if is_word { self.constant_word(value as u32) } else { self.number(value) }
     }
 
     /// An operation on three numbers.
@@ -540,7 +647,7 @@ impl Pool {
 
     /// A comparison of numbers.
     pub fn compare(&mut self, op: Comparison, a: ExprId, b: ExprId) -> CondId {
-        match (self.constant(a), self.constant(b)) {
+        match (self.known(a), self.known(b)) {
             (Some(a), Some(b)) => self.always(op.holds(a, b)),
             _ => self.intern_cond(Cond::Compare(op, a, b)),
         }

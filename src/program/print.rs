@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::operators::Notation;
 use super::{Comparison, Cond, CondId, Domain, ExprId, Input, LevelKind, Node, Pool};
+use crate::table::expr as ast;
 
 /// Longest text, in bytes; what is longer is broken off.
 const MAX_LENGTH: usize = 4_000;
@@ -12,7 +13,7 @@ const MAX_LENGTH: usize = 4_000;
 pub(crate) fn index(input: &Input) -> String {
     let is_code = match &input.domain {
         Domain::Discrete(levels) => levels.codes.iter().enumerate().all(|(index, code)| index as f64 == *code),
-        Domain::Continuous { .. } => false,
+        Domain::Continuous { .. } | Domain::Word => false,
     };
     format!("{}({})", if is_code { "f32" } else { "index" }, input.name)
 }
@@ -60,13 +61,14 @@ impl Printer<'_> {
         out.push(')');
     }
 
-    fn infix(&self, out: &mut String, symbol: &str, binds: u8, outer: u8, a: ExprId, b: ExprId) {
-        let parenthesise = binds < outer;
+    fn infix(&self, out: &mut String, symbol: ast::BinaryOp, outer: u8, a: ExprId, b: ExprId) {
+        let (binds, is_on_bits) = (symbol.strength(), symbol.is_on_bits());
+        let parenthesise = binds < outer || is_on_bits && outer > 0;
         if parenthesise {
             out.push('(');
         }
         self.write_expr(out, a, binds);
-        let _ = write!(out, " {symbol} ");
+        let _ = write!(out, " {} ", symbol.symbol());
         self.write_expr(out, b, binds + 1);
         if parenthesise {
             out.push(')');
@@ -85,19 +87,24 @@ impl Printer<'_> {
             Node::Const(number) => {
                 let _ = write!(out, "{}", number.get());
             }
+            Node::Word(word) => {
+                let _ = write!(out, "{word}");
+            }
             Node::Input(input) => out.push_str(&self.inputs[input.index()].name),
             Node::Index(input) => out.push_str(&index(&self.inputs[input.index()])),
             Node::Result(_) => out.push_str("value"),
             Node::Unary(op, a) => match op.row().notation {
-                Notation::Function(name, _) => self.call(out, name, &[a]),
+                Notation::Function(name, _) | Notation::Shared(name) => self.call(out, name, &[a]),
                 symbol @ (Notation::Prefix(_) | Notation::Infix(_)) => {
                     out.push_str(symbol.name());
                     self.write_expr(out, a, 6);
                 }
             },
             Node::Binary(op, a, b) => match op.row().notation {
-                Notation::Infix(symbol) => self.infix(out, symbol.symbol(), symbol.strength(), outer, a, b),
-                function @ (Notation::Function(..) | Notation::Prefix(_)) => self.call(out, function.name(), &[a, b]),
+                Notation::Infix(symbol) => self.infix(out, symbol, outer, a, b),
+                function @ (Notation::Function(..) | Notation::Shared(_) | Notation::Prefix(_)) => {
+                    self.call(out, function.name(), &[a, b])
+                }
             },
             Node::Ternary(op, a, b, c) => self.call(out, op.row().notation.name(), &[a, b, c]),
             Node::Select(condition, then, other) => {

@@ -95,6 +95,7 @@ mod tests {
         for input in &program.inputs {
             let values: Vec<Value> = match &input.domain {
                 Domain::Discrete(levels) => (0..levels.count()).map(|level| Value::Level(level as u8)).collect(),
+                Domain::Word => unreachable!("there is none"),
                 Domain::Continuous { lo, hi, .. } => {
                     (0..=8).map(|i| Value::Number(lo + (hi - lo) * f64::from(i) / 8.0)).collect()
                 }

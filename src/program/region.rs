@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::normal::{Affine, Term};
 use super::rational::Rational;
-use super::{Domain, InputId, Program};
+use super::{InputId, Program};
 
 /// Most constraints that one elimination may leave; beyond it "can hold" is the answer.
 const MAX_CONSTRAINTS: usize = 512;
@@ -138,7 +138,7 @@ fn feasible<'a>(
     variables.dedup();
     for variable in &variables {
         let Term::Input(input) = variable else { continue };
-        if let Domain::Continuous { lo, hi, .. } = program.inputs[input.index()].domain {
+        if let Some((lo, hi)) = program.inputs[input.index()].domain.range() {
             let one = Rational::whole(1);
             let bound = |factor: Rational, constant: Rational| Constraint {
                 form: Affine { terms: [(variable.clone(), factor)].into(), constant },

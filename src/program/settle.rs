@@ -19,6 +19,9 @@ impl Pool {
         if let Node::Select(condition, then, other) = node {
             return self.select(condition, then, other);
         }
+        if self.gives_word(node) {
+            return self.rebuild(node);
+        }
         match self.settled(node) {
             Some(value) => self.number(value),
             None => self.intern(node),
@@ -28,6 +31,10 @@ impl Pool {
     /// The constant that a node is, over the reals and in `f32`.
     fn settled(&self, node: Node) -> Option<f64> {
         let (wide, narrow) = match node {
+            Node::Unary(UnaryOp::NumberOfWord, a) => {
+                let a = self.word(a)?;
+                (f64::from(a), a as f32)
+            }
             Node::Unary(op, a) => {
                 let a = self.constant(a)?;
                 (exact_unary(op, a)?, f32::unary(op, a as f32))
@@ -44,7 +51,9 @@ impl Pool {
                 let (a, b, c) = (operands[0]?, operands[1]?, operands[2]?);
                 (exact_ternary(op, a, b, c)?, f32::ternary(op, a as f32, b as f32, c as f32))
             }
-            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => return None,
+            Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => {
+                return None;
+            }
         };
         // A constant has no sign of zero.
         let told = wide.is_finite() && narrow.is_finite() && (wide as f32).to_bits() == narrow.to_bits();

@@ -75,6 +75,7 @@ impl<'p> Spans<'p> {
         let pool = self.pool;
         let (bounds, fails) = match pool.node(expr) {
             Node::Const(number) => ((number.get(), number.get()), None),
+            Node::Word(word) => ((f64::from(word), f64::from(word)), None),
             Node::Index(input) => match self.levels[input.index()] {
                 Some(level) => ((f64::from(level), f64::from(level)), None),
                 None => (pool.expr_facts(expr).range, None),
@@ -157,6 +158,7 @@ impl<'p, T: Real> Tabulation<'p, T> {
         }
         let value = match self.pool.node(expr) {
             Node::Const(number) => T::from_f64(number.get()),
+            Node::Word(word) => T::from_word(word),
             Node::Index(input) if input == self.input => T::from_f64(f64::from(self.level)),
             Node::Index(_) | Node::Input(_) | Node::Result(_) => T::from_f64(f64::NAN),
             Node::Unary(op, a) => T::unary(op, self.number(a)),
@@ -179,7 +181,7 @@ impl<'p, T: Real> Tabulation<'p, T> {
         let holds = match pool.cond(condition) {
             Cond::Const(value) => *value,
             Cond::Level(_, levels) => levels.contains(self.level),
-            Cond::Compare(op, a, b) => op.holds(self.number(*a), self.number(*b)),
+            Cond::Compare(op, a, b) => op.holds_of(pool.is_word(*a), self.number(*a), self.number(*b)),
             Cond::Not(a) => !self.holds(*a),
             Cond::And(parts) => parts.iter().all(|part| self.holds(*part)),
             Cond::Or(parts) => parts.iter().any(|part| self.holds(*part)),

@@ -63,7 +63,12 @@ impl<'p, M: Meanings> Substitution<'p, M> {
                     }
                 }
             }
-            node @ (Node::Const(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
+            node @ (Node::Const(_)
+            | Node::Word(_)
+            | Node::Result(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Ternary(..)) => {
                 let node = node.map(|part| self.expr(part));
                 self.to.pool().rebuild(node)
             }

@@ -362,7 +362,7 @@ impl<'p> Machine<'p> {
             return *done;
         }
         let result = match self.pool.node(expr) {
-            Node::Const(_) => return expr,
+            Node::Const(_) | Node::Word(_) => return expr,
             Node::Result(component) => {
                 view.result.and_then(|values| values.get(usize::from(component)).copied()).unwrap_or(expr)
             }
@@ -370,7 +370,9 @@ impl<'p> Machine<'p> {
                 let image = view.symmetry.and_then(|s| s.numbers.iter().find(|(mapped, _)| *mapped == input));
                 match image {
                     Some((_, image)) => self.resolve(*image, View::PLAIN),
-                    None if self.absent.contains(input) => self.pool.number(self.program.inputs[input.index()].least()),
+                    None if self.absent.contains(input) => {
+                        self.pool.value_of(input, self.program.inputs[input.index()].least())
+                    }
                     None => {
                         self.fetched = self.fetched.or(InputSet::one(input).and(self.program.fetched));
                         expr
@@ -397,7 +399,9 @@ impl<'p> Machine<'p> {
     /// A resolved expression with every minimum and maximum decided, so that it is affine if it can be.
     fn flatten(&mut self, expr: ExprId) -> ExprId {
         match self.pool.node(expr) {
-            Node::Const(_) | Node::Result(_) | Node::Input(_) | Node::Index(_) | Node::Select(..) => expr,
+            Node::Const(_) | Node::Word(_) | Node::Result(_) | Node::Input(_) | Node::Index(_) | Node::Select(..) => {
+                expr
+            }
             Node::Unary(op, a) => {
                 let a = self.flatten(a);
                 let zero = self.pool.number(0.0);

@@ -179,7 +179,7 @@ impl Turn {
 
     fn number(&self, pool: &mut Pool, expr: ExprId) -> ExprId {
         match pool.node(expr) {
-            Node::Const(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => expr,
+            Node::Const(_) | Node::Word(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => expr,
             Node::Input(input) => {
                 let known = self.symmetry.numbers.iter().find(|(known, _)| *known == input);
                 known.map_or(expr, |(_, image)| *image)

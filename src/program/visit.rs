@@ -10,7 +10,7 @@ impl Node {
     /// The numbers that an expression is made of, from left to right; of a selection, its two sides.
     pub fn children(self) -> impl Iterator<Item = ExprId> + Clone {
         let parts = match self {
-            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => [None; 3],
+            Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => [None; 3],
             Node::Unary(_, a) => [Some(a), None, None],
             Node::Binary(_, a, b) | Node::Select(_, a, b) => [Some(a), Some(b), None],
             Node::Ternary(_, a, b, c) => [Some(a), Some(b), Some(c)],
@@ -22,7 +22,7 @@ impl Node {
     #[must_use]
     pub fn map(self, mut part: impl FnMut(ExprId) -> ExprId) -> Self {
         match self {
-            Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => self,
+            Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => self,
             Node::Unary(op, a) => Node::Unary(op, part(a)),
             Node::Binary(op, a, b) => Node::Binary(op, part(a), part(b)),
             Node::Ternary(op, a, b, c) => Node::Ternary(op, part(a), part(b), part(c)),

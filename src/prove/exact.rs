@@ -386,7 +386,7 @@ impl<'a, 'p> Prover<'a, 'p> {
             return *done;
         }
         let result = match self.pool.node(expr) {
-            Node::Const(_) | Node::Result(_) | Node::Input(_) => expr,
+            Node::Const(_) | Node::Word(_) | Node::Result(_) | Node::Input(_) => expr,
             Node::Index(input) => {
                 let level = self.oracle.levels[input.index()];
                 self.pool.number(f64::from(level))
@@ -449,13 +449,13 @@ impl<'a, 'p> Prover<'a, 'p> {
         let result = match self.pool.node(expr) {
             Node::Input(input) if self.absent.contains(input) => {
                 let least = self.plan.program.inputs[input.index()].least();
-                self.pool.number(least)
+                self.pool.value_of(input, least)
             }
             Node::Index(input) => {
                 let level = self.level(input, fetched);
                 self.pool.number(f64::from(level))
             }
-            Node::Const(_) | Node::Result(_) | Node::Input(_) => expr,
+            Node::Const(_) | Node::Word(_) | Node::Result(_) | Node::Input(_) => expr,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.resolve_memo(part, fetched, memo));
                 self.pool.settle(node)

@@ -98,9 +98,10 @@ fn operation(
             Domain::Continuous { lo, hi, .. } => {
                 Bound { lo: lo.min((lo as f32).into()), hi: hi.max((hi as f32).into()), error: 0.0 }.within_range()
             }
-            Domain::Discrete(_) => None,
+            Domain::Discrete(_) | Domain::Word => None,
         },
-        Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
+        // Words are exact, but no numbers.
+        Node::Word(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
         Node::Unary(op, a) => {
             let a = of(a)?;
             match op.row().algebra {

@@ -116,6 +116,7 @@ fn inputs(program: &Program) -> Markup {
                         td {
                             @match &input.domain {
                                 Domain::Discrete(levels) => { (levels.describe()) }
+                                Domain::Word => { "U32" }
                                 Domain::Continuous { lo, hi, unit } => { (lo) " to " (hi) " " (unit) }
                             }
                         }

@@ -80,7 +80,7 @@ impl super::Stabilised {
 fn points(program: &Program) -> Vec<Vec<Value>> {
     let inside = |input: usize, value: f64| match program.inputs[input].domain {
         Domain::Continuous { lo, hi, .. } => (lo..=hi).contains(&value),
-        Domain::Discrete(_) => false,
+        Domain::Discrete(_) | Domain::Word => false,
     };
     let mut all = domain_points(program, SPREAD);
     for singularity in singularities(program) {

@@ -129,6 +129,7 @@ impl<'t> Reader<'t> {
                 let (mid, half) = self.bounds(lo, hi);
                 between(&body, &free, &mid, &half)
             }
+            ExprKind::Unary(UnaryOp::BitNot, _) => Err("`~` is not arithmetic".to_owned()),
             ExprKind::If(..) | ExprKind::In(..) | ExprKind::Unary(UnaryOp::Not, _) => {
                 Err("it is a choice, and rules know formulas only".to_owned())
             }

@@ -21,7 +21,7 @@ pub enum ExprKind {
     Name(String),
     /// `set::level`: a level that says its set.
     Level(Spanned<String>, Spanned<String>),
-    /// `-a`, `!a`.
+    /// `-a`, `!a`, `~a`.
     Unary(UnaryOp, Box<Expr>),
     /// `a + b`, `a && b`, `a < b`, …
     Binary(BinaryOp, Box<Expr>, Box<Expr>),
@@ -123,6 +123,8 @@ pub enum UnaryOp {
     Negate,
     /// `!`
     Not,
+    /// `~`
+    BitNot,
 }
 
 /// Operators with two operands.
@@ -143,6 +145,11 @@ pub enum BinaryOp {
     Divide,
     Remainder,
     Join,
+    BitAnd,
+    BitOr,
+    BitXor,
+    ShiftLeft,
+    ShiftRight,
 }
 
 impl UnaryOp {
@@ -151,13 +158,14 @@ impl UnaryOp {
         match self {
             UnaryOp::Negate => "-",
             UnaryOp::Not => "!",
+            UnaryOp::BitNot => "~",
         }
     }
 }
 
 impl BinaryOp {
     /// All of them.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 19] = [
         Self::Or,
         Self::And,
         Self::Equal,
@@ -172,7 +180,18 @@ impl BinaryOp {
         Self::Divide,
         Self::Remainder,
         Self::Join,
+        Self::BitAnd,
+        Self::BitOr,
+        Self::BitXor,
+        Self::ShiftLeft,
+        Self::ShiftRight,
     ];
+
+    /// Returns whether it is an operation on bits. Its operands are unary expressions, as in WGSL: beside other
+    /// operators it stands in parentheses, so that nobody has to know which of them binds more strongly.
+    pub fn is_on_bits(self) -> bool {
+        matches!(self, Self::BitAnd | Self::BitOr | Self::BitXor | Self::ShiftLeft | Self::ShiftRight)
+    }
 
     /// Its binding strength; the operands of a stronger one need no parentheses.
     pub fn strength(self) -> u8 {
@@ -187,6 +206,7 @@ impl BinaryOp {
             | BinaryOp::GreaterEqual => 3,
             BinaryOp::Add | BinaryOp::Subtract | BinaryOp::Join => 4,
             BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Remainder => 5,
+            BinaryOp::BitAnd | BinaryOp::BitOr | BinaryOp::BitXor | BinaryOp::ShiftLeft | BinaryOp::ShiftRight => 6,
         }
     }
 
@@ -207,6 +227,11 @@ impl BinaryOp {
             BinaryOp::Divide => "/",
             BinaryOp::Remainder => "%",
             BinaryOp::Join => "++",
+            BinaryOp::BitAnd => "&",
+            BinaryOp::BitOr => "|",
+            BinaryOp::BitXor => "^",
+            BinaryOp::ShiftLeft => "<<",
+            BinaryOp::ShiftRight => ">>",
         }
     }
 }

@@ -24,9 +24,9 @@ impl Token<'_> {
 }
 
 /// Two-character symbols come first, so that the longest one wins.
-const SYMBOLS: [&str; 29] = [
-    "||", "&&", "==", "!=", "<=", ">=", "..", "::", "++", "<", ">", "+", "-", "*", "/", "%", "!", "(", ")", "{", "}",
-    "[", "]", ",", ";", "=", ".", ":", "|",
+const SYMBOLS: [&str; 34] = [
+    "||", "&&", "==", "!=", "<=", ">=", "..", "::", "++", "<<", ">>", "<", ">", "+", "-", "*", "/", "%", "!", "&", "^",
+    "~", "(", ")", "{", "}", "[", "]", ",", ";", "=", ".", ":", "|",
 ];
 
 /// Splits `text` into tokens; `base` is where the text starts in its source.
@@ -42,8 +42,12 @@ pub(crate) fn tokens(text: &str, base: usize) -> Result<Vec<(Span, Token<'_>)>, 
         } else if byte.is_ascii_digit() || (byte == b'.' && bytes.get(at + 1).is_some_and(u8::is_ascii_digit)) {
             at = number_end(bytes, at);
             let literal = &text[start..at];
-            match literal.parse::<f64>() {
-                Ok(number) if number.is_finite() => Token::Number(number),
+            let number = match hexadecimal(literal) {
+                Some(digits) => u32::from_str_radix(digits, 16).map(f64::from).ok(),
+                None => literal.parse::<f64>().ok(),
+            };
+            match number {
+                Some(number) if number.is_finite() => Token::Number(number),
                 _ => {
                     return Err(Diagnostic::error(codes::EXPRESSION, format!("`{literal}` is not a usable number"))
                         .at(Span::new(base + start, base + at), "malformed or too large"));
@@ -64,12 +68,7 @@ pub(crate) fn tokens(text: &str, base: usize) -> Result<Vec<(Span, Token<'_>)>, 
             Token::Symbol(symbol)
         } else {
             let found = text[start..].chars().next().unwrap_or('?');
-            let help = match found {
-                '&' => "logical operators are written `&&` and `||`",
-                _ => {
-                    "an expression consists of numbers, names, + - * / % ! && || == != < <= > >= ( ) { } [ ] and if, else, let, in, case"
-                }
-            };
+            let help = "an expression consists of numbers, names, + - * / % & | ^ ~ << >> ! && || == != < <= > >= ( ) { } [ ] and if, else, let, in, case";
             return Err(Diagnostic::error(
                 codes::EXPRESSION,
                 format!("`{}` has no meaning here", found.escape_debug()),
@@ -83,7 +82,19 @@ pub(crate) fn tokens(text: &str, base: usize) -> Result<Vec<(Span, Token<'_>)>, 
     Ok(out)
 }
 
+/// The digits of a number that is written as those of a word: `0x9E3779B9`.
+fn hexadecimal(literal: &str) -> Option<&str> {
+    literal.strip_prefix("0x").or_else(|| literal.strip_prefix("0X"))
+}
+
 fn number_end(bytes: &[u8], mut at: usize) -> usize {
+    if bytes[at] == b'0' && matches!(bytes.get(at + 1), Some(b'x' | b'X')) {
+        at += 2;
+        while bytes.get(at).is_some_and(u8::is_ascii_hexdigit) {
+            at += 1;
+        }
+        return at;
+    }
     let digits = |mut at: usize| {
         while bytes.get(at).is_some_and(u8::is_ascii_digit) {
             at += 1;

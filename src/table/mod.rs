@@ -146,6 +146,8 @@ pub enum Domain {
     Int(i64, i64),
     /// The real numbers of a closed interval, with their unit.
     Range(f64, f64, String),
+    /// Words: unsigned integers of 32 bits.
+    U32,
 }
 
 /// Inputs that are `false` or `true`, in the order of the letters of a pattern.

@@ -32,6 +32,8 @@ pub enum Output<Set> {
     Bool,
     /// A whole number from the first to the second, both within 2^24 of zero.
     Int(i32, i32),
+    /// A word: an unsigned integer of 32 bits.
+    U32,
     /// One to 32 results, each with a name.
     Record(Vec<(String, Output<Set>)>),
     /// One level of a set.
@@ -95,7 +97,7 @@ impl<Set> Output<Set> {
     /// The number of components.
     pub fn size(&self) -> usize {
         match self {
-            Output::Number(_) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => 1,
+            Output::Number(_) | Output::Bool | Output::Int(..) | Output::U32 | Output::Enumeration(_) => 1,
             Output::Vector(size, _) => *size,
             Output::Record(fields) => fields.iter().map(|(_, of)| of.size()).sum(),
             Output::List { of, max, .. } => 1 + max * of.size(),
@@ -106,7 +108,12 @@ impl<Set> Output<Set> {
     /// lengths and the items of its lists are known as numbers.
     pub(crate) fn sort<T: Clone>(&self, components: &mut [T], number: &impl Fn(&T) -> Option<f64>) {
         match self {
-            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => {}
+            Output::Number(_)
+            | Output::Vector(..)
+            | Output::Bool
+            | Output::Int(..)
+            | Output::U32
+            | Output::Enumeration(_) => {}
             Output::Record(fields) => {
                 let mut rest = components;
                 for (_, of) in fields {
@@ -139,7 +146,12 @@ impl<Set> Output<Set> {
     /// Returns whether a list occurs in it.
     pub(crate) fn has_list(&self) -> bool {
         match self {
-            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => false,
+            Output::Number(_)
+            | Output::Vector(..)
+            | Output::Bool
+            | Output::Int(..)
+            | Output::U32
+            | Output::Enumeration(_) => false,
             Output::Record(fields) => fields.iter().any(|(_, of)| of.has_list()),
             Output::List { .. } => true,
         }
@@ -155,6 +167,7 @@ impl<Set> Output<Set> {
             Output::Vector(size, clamp) => Output::Vector(*size, *clamp),
             Output::Bool => Output::Bool,
             Output::Int(from, to) => Output::Int(*from, *to),
+            Output::U32 => Output::U32,
             Output::Record(fields) => {
                 let field = |(name, of): &(String, Self)| Ok((name.clone(), of.try_map(set)?));
                 Output::Record(fields.iter().map(field).collect::<Result<_, E>>()?)
@@ -182,6 +195,7 @@ enum OutputRon<'a> {
         from: i64,
         to: i64,
     },
+    U32 {},
     Enumeration {
         #[serde(borrow)]
         of: Raw<'a>,
@@ -254,6 +268,10 @@ impl<'a> Reader<'a> {
                     }
                 }
             }
+            OutputRon::U32 {} => {
+                since("`U32` as an output");
+                (None, Output::U32)
+            }
             OutputRon::Enumeration { of } => (None, Output::Enumeration(self.word(of)?)),
             OutputRon::List { max, .. } if !(1..=MAX_ITEMS).contains(&max) => {
                 return domain("impossible size of the output", format!("a list has 1 to {MAX_ITEMS} items at most"));
@@ -296,7 +314,7 @@ impl<'a> Reader<'a> {
             return domain(message, "in this output".to_owned());
         }
         match (within, &output) {
-            (Within::ListOfLists, Output::Number(_) | Output::Vector(..) | Output::Bool) => {
+            (Within::ListOfLists, Output::Number(_) | Output::Vector(..) | Output::Bool | Output::U32) => {
                 Err(Diagnostic::error(codes::DOMAIN, "a list of lists holds levels or whole numbers")
                     .at(span, "of another kind")
                     .help("expected the name of a level set, or `Int(from: ..., to: ...)`"))

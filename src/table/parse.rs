@@ -139,7 +139,10 @@ impl<'a> Parser<'a> {
         loop {
             let operator = match self.peek() {
                 Token::Word("in") => None,
-                Token::Symbol("|") if weakest <= SUM && !self.bounds => {
+                Token::Symbol("|") if self.binds_next() => {
+                    if weakest > SUM || self.bounds {
+                        break;
+                    }
                     links += 1;
                     if self.depth + links > MAX_DEPTH {
                         return Err(too_deep(self.span()));
@@ -163,6 +166,7 @@ impl<'a> Parser<'a> {
                 continue;
             };
             let right = self.nested(|p| p.binary(binds + 1))?;
+            check_bits(op, &left, &right)?;
             if std::mem::replace(&mut compared, binds == COMPARISON) && compared {
                 return Err(Diagnostic::error(codes::EXPRESSION, "comparisons cannot be chained")
                     .at(left.span.to(right.span), "write `a < b && b < c`"));
@@ -171,6 +175,13 @@ impl<'a> Parser<'a> {
             left = Expr { span, kind: ExprKind::Binary(op, Box::new(left), Box::new(right)) };
         }
         Ok(left)
+    }
+
+    /// Returns whether a name and `=` follow the symbol that stands here, as in `F | x = lo .. hi`; behind the
+    /// `|` of bits they never do.
+    fn binds_next(&self) -> bool {
+        let next = |beyond: usize| self.tokens.get(self.at + beyond).map(|(_, token)| *token);
+        matches!((next(1), next(2)), (Some(Token::Word(_)), Some(Token::Symbol("="))))
     }
 
     /// `F | phi = lo .. hi`
@@ -254,6 +265,7 @@ impl<'a> Parser<'a> {
         let op = match self.peek() {
             Token::Symbol("-") => UnaryOp::Negate,
             Token::Symbol("!") => UnaryOp::Not,
+            Token::Symbol("~") => UnaryOp::BitNot,
             _ => return self.postfix(),
         };
         let start = self.next().0;
@@ -508,6 +520,23 @@ impl<'a> Parser<'a> {
     }
 }
 
+/// Refuses an operation on bits beside another operator, unless one of them stands in parentheses, or both are the
+/// same `&`, `|` or `^`. Comparisons and logic are weaker than either, and may stand there.
+fn check_bits(op: BinaryOp, left: &Expr, right: &Expr) -> Result<(), Diagnostic> {
+    for side in [left, right] {
+        // What stands in parentheses begins before its first operand.
+        let ExprKind::Binary(inner, first, _) = &side.kind else { continue };
+        let is_chain = op == *inner && matches!(op, BinaryOp::BitAnd | BinaryOp::BitOr | BinaryOp::BitXor);
+        let mixes = op.strength() > COMPARISON && (op.is_on_bits() || inner.is_on_bits());
+        if side.span.start == first.span.start && mixes && !is_chain {
+            let message = format!("`{}` and `{}` beside each other", inner.symbol(), op.symbol());
+            return Err(Diagnostic::error(codes::EXPRESSION, message)
+                .at(side.span, "put this into parentheses, or what is meant to go together"));
+        }
+    }
+    Ok(())
+}
+
 /// Chains inside parentheses inside chains: each is short, but the tree may still be deep.
 fn check_depth(expr: &Expr, depth: usize) -> Result<(), Diagnostic> {
     if depth > MAX_DEPTH {
@@ -554,7 +583,7 @@ mod tests {
             ExprKind::Name(n) => n.clone(),
             ExprKind::Level(set, level) => format!("<{} of {}>", level.value, set.value),
             ExprKind::Optional(a, c) => format!("{} if {}", shape(a), shape(c)),
-            ExprKind::Unary(op, a) => format!("({}{})", if *op == UnaryOp::Not { "!" } else { "-" }, shape(a)),
+            ExprKind::Unary(op, a) => format!("({}{})", op.symbol(), shape(a)),
             ExprKind::Binary(op, a, b) => format!("({} {} {})", shape(a), op.symbol(), shape(b)),
             ExprKind::In(a, levels) => {
                 format!("({} in {})", shape(a), levels.iter().map(|l| l.value.as_str()).collect::<Vec<_>>().join("|"))
@@ -638,7 +667,23 @@ mod tests {
         assert_eq!(parsed("(F | x = lo..hi) / 2 < b"), "(((F | x = lo .. hi) / 2) < b)");
         assert_eq!(parsed("b < F | x = lo .. h + 1"), "(b < (F | x = lo .. (h + 1)))");
         assert_eq!(parsed("F | x = 0 .. 1 | y = 0..2.5"), "((F | x = 0 .. 1) | y = 0 .. 2.5)");
-        assert_eq!(parsed("F | x 0 .. 1"), "error: expected `=`, found a number");
+        assert_eq!(parsed("F | x = 0 1"), "error: expected `..`, found a number");
+        assert_eq!(parsed("F | x 0"), "error: expected an operator or the end of the expression, found a number");
+    }
+
+    #[test]
+    fn operations_on_bits_stand_by_themselves() {
+        assert_eq!(parsed("(w >> 22) ^ w"), "((w >> 22) ^ w)");
+        assert_eq!(parsed("a & ~b & 0xFf"), "((a & (~b)) & 255)");
+        assert_eq!(parsed("(a | b) == c | d && e"), "(((a | b) == (c | d)) && e)");
+        assert_eq!(parsed("a | b | x = 0 .. 1 | 2"), "((a | b) | x = 0 .. (1 | 2))");
+        assert_eq!(parsed("s >> ((s >> 28) + 4)"), "(s >> ((s >> 28) + 4))");
+        assert_eq!(parsed("a + b << c"), "error: `<<` and `+` beside each other");
+        assert_eq!(parsed("a << b - c"), "error: `<<` and `-` beside each other");
+        assert_eq!(parsed("a & b | c"), "error: `&` and `|` beside each other");
+        assert_eq!(parsed("a << b << c"), "error: `<<` and `<<` beside each other");
+        assert_eq!(parsed("0x100000000"), "error: `0x100000000` is not a usable number");
+        assert_eq!(parsed("0x"), "error: `0x` is not a usable number");
     }
 
     #[test]
@@ -652,7 +697,7 @@ mod tests {
         assert_eq!(parsed(""), "error: empty expression");
         assert_eq!(parsed("k::"), "error: expected the name of a level, found the end of the expression");
         assert_eq!(parsed("f(a if b)"), "error: expected `)`, found `if`");
-        assert_eq!(parsed("a & b"), "error: `&` has no meaning here");
+        assert_eq!(parsed("a $ b"), "error: `$` has no meaning here");
         assert_eq!(parsed("1e999"), "error: `1e999` is not a usable number");
     }
 

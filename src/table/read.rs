@@ -105,6 +105,14 @@ enum InputRon<'a> {
         #[serde(default)]
         default: Option<Raw<'a>>,
     },
+    U32 {
+        #[serde(default)]
+        doc: String,
+        #[serde(default)]
+        fetched: Option<Raw<'a>>,
+        #[serde(default)]
+        default: Option<Raw<'a>>,
+    },
     Range {
         from: f64,
         to: f64,
@@ -351,6 +359,7 @@ impl<'a> Reader<'a> {
                         | Output::Vector(..)
                         | Output::Bool
                         | Output::Int(..)
+                        | Output::U32
                         | Output::List { .. }
                         | Output::Record(_) => self.expr(default)?,
                     }
@@ -444,6 +453,7 @@ impl<'a> Reader<'a> {
             }
             InputRon::Bool { doc, fetched, default } => (Domain::Bool, doc, fetched, default),
             InputRon::Int { from, to, doc, fetched, default } => (Domain::Int(from, to), doc, fetched, default),
+            InputRon::U32 { doc, fetched, default } => (Domain::U32, doc, fetched, default),
             InputRon::Range { from, to, unit, doc, fetched, default } => {
                 (Domain::Range(from, to, unit), doc, fetched, default)
             }

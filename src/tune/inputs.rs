@@ -123,8 +123,9 @@ impl<'p> Source<'p> {
             Some(match &input.domain {
                 Domain::Discrete(_) if input.fetched.is_none() => Value::Level(levels[id.index()]),
                 Domain::Discrete(all) => Value::Level(self.random.below(all.count()) as u8),
-                Domain::Continuous { lo, hi, .. } => {
-                    Value::Number(f64::from((lo + (hi - lo) * self.random.unit()) as f32))
+                domain @ (Domain::Continuous { .. } | Domain::Word) => {
+                    let (lo, hi) = domain.span();
+                    Value::Number(domain.given(lo + (hi - lo) * self.random.unit()))
                 }
             })
         };

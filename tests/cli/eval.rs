@@ -240,3 +240,25 @@ fn permissions_and_links_stay() {
     assert_eq!(place.run("eval smsr.ron --input rows.csv --output new.csv").code, Some(0));
     assert_ne!(std::fs::metadata(place.path("new.csv")).unwrap().permissions().mode() & 0o777, 0o600);
 }
+
+#[test]
+fn words_are_read_and_written_to_the_last_bit() {
+    let place = Place::new();
+    place.table("pcg.ron");
+    let rows = "v\n0\n0x1\n12345\n4294967295\n";
+    let said = place.run_with("eval pcg.ron --function hash", rows);
+    assert_eq!(answers(&said), ["case,value", "0,129708002", "0,2831084092", "0,4099845390", "0,3861530882"]);
+    assert_eq!(place.run_with("eval pcg.ron --function hash --precision f64", rows).out, said.out);
+    place.file("rows.json", r#"[{"v": 0}, {"v": 4294967295}]"#);
+    let said = place.run("eval pcg.ron --function hash --input rows.json --output out.json");
+    assert_eq!(answers(&said), [""; 0]);
+    assert_eq!(place.read("out.json"), "[\n{\"case\":0,\"value\":129708002},\n{\"case\":0,\"value\":3861530882}\n]\n");
+    for (value, row) in [("4294967296", 2), ("-1", 2), ("0.5", 2), ("0x100000000", 2), ("one", 2)] {
+        let said = place.run_with("eval pcg.ron --function hash", &format!("v\n{value}\n"));
+        let expected = format!("`{value}` is no value of `v`, which is a whole number from 0 to 4294967295");
+        assert!(said.code == Some(2) && said.err.contains(&expected), "{}", said.all());
+        assert!(said.err.contains(&format!("standard input:{row}:1")), "{}", said.all());
+    }
+    let said = place.run("explain pcg.ron --function hash --at v=0xffffffff");
+    assert!(said.out.contains("v = 4294967295") && said.out.contains("result:  3861530882"), "{}", said.all());
+}

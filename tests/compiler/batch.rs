@@ -31,6 +31,7 @@ impl Random {
     fn value(&mut self, domain: &Domain) -> Value {
         match domain {
             Domain::Discrete(levels) => Value::Level(self.below(levels.count()) as u8),
+            Domain::Word => Value::Number(self.below(1 << 32) as f64),
             Domain::Continuous { lo, hi, .. } => Value::Number(lo + (hi - lo) * self.unit()),
         }
     }

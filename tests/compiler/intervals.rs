@@ -39,6 +39,7 @@ fn table(path: &str) {
                 Some(match &input.domain {
                     Domain::Discrete(_) if input.fetched.is_none() => Value::Level(levels[id.index()]),
                     Domain::Discrete(all) => Value::Level(random(all.count() as u32) as u8),
+                    Domain::Word => Value::Number(f64::from(random(u32::MAX))),
                     // Many ties between distances, and values that do not subtract exactly.
                     Domain::Continuous { .. } => Value::Number(f64::from(random(11) as f32 / 10.0)),
                 })

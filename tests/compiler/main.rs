@@ -26,3 +26,4 @@ mod symmetries;
 #[cfg(feature = "trial")]
 mod trial;
 mod words;
+mod wrapping;

@@ -56,3 +56,52 @@ fn long_chains_take_the_right_case() {
         assert_eq!(run.offending, 0, "{}: {:?}", run.shape, run.offenders);
     }
 }
+
+/// U32 are exact: not one bit may differ, whatever wraps, in either language and for every plan.
+#[test]
+fn words_are_the_same_bits_on_a_device() {
+    let gpu = Gpu::open(&AdapterChoice::Any).unwrap_or_else(|error| panic!("{error}"));
+    let operations = [
+        "a + b",
+        "a - b",
+        "a * b",
+        "a / max(b, 1)",
+        "a % (b | 1)",
+        "a & b",
+        "a | b",
+        "a ^ ~b",
+        "a << b",
+        "a >> b",
+        "(a << 7) | (a >> 25)",
+        "min(a, b) ^ max(a, 3)",
+        "clamp(a, 10, 4000000000)",
+        "if a < b { a - 1 } else { b * 3 }",
+        "u32(f32(a >> 8) * 0.5)",
+        "u32(i32(a & 15) - 8) * 3",
+        "u32(a == b) + u32(k)",
+        "a ^ (b >> 1)",
+    ];
+    let fields: Vec<String> = (0..operations.len()).map(|i| format!("\"w{i}\": U32()")).collect();
+    let record = |of: &dyn Fn(usize) -> String| {
+        (0..operations.len()).map(|i| format!("w{i}: {}", of(i))).collect::<Vec<_>>().join(", ")
+    };
+    let text = format!(
+        r#"Table(language: 2, name: "bits", hit_policy: First,
+            inputs: {{"a": U32(), "b": U32(), "f": U32(fetched: (cost: 1)), "k": Int(from: 0, to: 3), "c": Bool()}},
+            output: Record({{{}}}),
+            cases: [Case(id: 1, when: "c && a != 5 || a > b", value: "{{{}}}"), Case(id: 2, when: "f < b", value: "{{{}}}")],
+            default: "{{{}}}")"#,
+        fields.join(", "),
+        record(&|i| operations[i].to_owned()),
+        record(&|i| format!("f + {i}")),
+        record(&|i| format!("f * {i}")),
+    );
+    let table = Table::parse(Source::new("bits.ron", text)).unwrap_or_else(|error| panic!("{error}"));
+    let program = Program::check(&table).unwrap_or_else(|error| panic!("{error}"));
+    let options = Options { effort: Effort { grid: 25, random: 60, lines: 4 }, ..Options::default() };
+    let report = diff::table(&program, &gpu, &options, |_| {}).unwrap_or_else(|error| panic!("{error}"));
+    assert!(report.points > 500 && report.runs.len() >= 16, "{} points, {} runs", report.points, report.runs.len());
+    for run in &report.runs {
+        assert_eq!(run.bit_equal, report.points, "{} {:?}: {:?}", run.shape, run.language, run.offenders);
+    }
+}

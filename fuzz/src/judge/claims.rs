@@ -470,6 +470,7 @@ impl Trace<'_> {
                 [lo, hi, at].into_iter().try_for_each(|part| self.value(part))
             }
             node @ (Node::Const(_)
+            | Node::Word(_)
             | Node::Input(_)
             | Node::Index(_)
             | Node::Result(_)

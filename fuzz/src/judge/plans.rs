@@ -165,7 +165,7 @@ fn decisions(program: &Program) -> f64 {
         if program.fetched.contains(id) {
             ways *= match &input.domain {
                 Domain::Discrete(levels) => levels.count() as f64,
-                Domain::Continuous { .. } => 1.0,
+                Domain::Continuous { .. } | Domain::Word => 1.0,
             };
         }
     }

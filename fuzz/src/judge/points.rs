@@ -51,6 +51,7 @@ pub(crate) fn choose(program: &Program, random: &mut Random) -> Vec<Point> {
 fn anywhere(domain: &Domain, random: &mut Random) -> Value {
     match domain {
         Domain::Discrete(levels) => Value::Level(random.below(levels.count()) as u8),
+        Domain::Word => Value::Number((f64::from(u32::MAX >> random.below(32)) * random.unit()).floor()),
         Domain::Continuous { lo, hi, .. } => {
             let share = if random.below(2) == 0 { random.unit() } else { random.below(9) as f64 / 8.0 };
             // As every executor gets it, and inside of the range all the same.

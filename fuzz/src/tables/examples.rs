@@ -40,6 +40,7 @@ pub(super) fn add(maker: &mut Maker<'_, '_>, draft: &mut Draft) {
 fn value(input: &Input, random: &mut Random) -> Value {
     match &input.domain {
         Domain::Discrete(levels) => Value::Level(random.below(levels.count()) as u8),
+        Domain::Word => Value::Number(random.below(1 << 32) as f64),
         Domain::Continuous { lo, hi, .. } => {
             let value = lo + (hi - lo) * random.below(9) as f64 / 8.0;
             Value::Number(f64::from(value as f32).clamp(*lo, *hi))
@@ -58,7 +59,7 @@ fn shown(input: &Input, value: Value) -> String {
             }
         }
         (Value::Number(number), _) => format!("{number}"),
-        (Value::Level(level), Domain::Continuous { .. }) => level.to_string(),
+        (Value::Level(level), Domain::Continuous { .. } | Domain::Word) => level.to_string(),
     }
 }
 

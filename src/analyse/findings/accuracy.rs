@@ -79,7 +79,7 @@ fn check_accuracy(program: &Program, function: &Function, claim: &Accuracy) -> O
     let mut worst: Option<Worst> = None;
     for point in Samples::new(program).take(POINTS) {
         let exact = wide.evaluate(&point).ok()?.values;
-        let got: Vec<f64> = narrow.evaluate(&point).ok()?.values.into_iter().map(f64::from).collect();
+        let got = program.output.numbers(&narrow.evaluate(&point).ok()?.values);
         let Some(allowed) = allowance(program, &mut wide, &point) else { continue };
         for ((exact_one, got_one), allowed) in exact.iter().zip(&got).zip(allowed) {
             // What is smaller than any normal number may be flushed to zero.

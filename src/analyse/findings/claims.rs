@@ -103,7 +103,7 @@ fn verdict(claims: &Claims, claim: &Claim) -> Verdict {
     let mut interpreter = Interpreter::<f64>::new(program);
     let mut levels = claim.inputs.iter().map(|input| match &program.inputs[input.index()].domain {
         Domain::Discrete(levels) => Some(levels.count()),
-        Domain::Continuous { .. } => None,
+        Domain::Continuous { .. } | Domain::Word => None,
     });
     let states = levels.try_fold(1, |all: usize, count| all.checked_mul(count?));
     if let Some(states) = states.filter(|states| *states <= MAX_STATES) {
@@ -160,6 +160,7 @@ fn anywhere(program: &Program) -> Point {
     let first = |domain: &Domain| match domain {
         Domain::Discrete(_) => Value::Level(0),
         Domain::Continuous { lo, .. } => Value::Number(*lo),
+        Domain::Word => Value::Number(0.0),
     };
     program.inputs.iter().map(|input| Some(first(&input.domain))).collect()
 }
@@ -168,7 +169,8 @@ fn anywhere(program: &Program) -> Point {
 fn corners(program: &Program, claim: &Claim) -> Vec<Point> {
     let mut points = vec![anywhere(program)];
     for input in claim.inputs.iter().take(4) {
-        if let Domain::Continuous { lo, hi, .. } = program.inputs[input.index()].domain {
+        let domain = &program.inputs[input.index()].domain;
+        if let Some((lo, hi)) = domain.range() {
             let at = |value: f64| {
                 points.iter().map(move |point| {
                     let mut point = point.clone();
@@ -176,7 +178,7 @@ fn corners(program: &Program, claim: &Claim) -> Vec<Point> {
                     point
                 })
             };
-            points = [lo, f64::midpoint(lo, hi), hi].into_iter().flat_map(at).collect();
+            points = [lo, domain.point(f64::midpoint(lo, hi)), hi].into_iter().flat_map(at).collect();
         }
     }
     points

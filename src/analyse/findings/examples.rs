@@ -4,7 +4,7 @@ use super::accuracy::allowance;
 use super::{Analysis, Run};
 use crate::diag::{Diagnostic, codes};
 use crate::eval::Interpreter;
-use crate::program::{Example, Program};
+use crate::program::{Example, Program, Scalar};
 use crate::show::{Precision, sentence};
 use crate::table::HitPolicy;
 
@@ -42,7 +42,7 @@ fn run(program: &Program, interpreter: &mut Interpreter<'_, f32>, example: &Exam
         }
     };
     let expected = sentence(&program.output, &example.expected, Precision::F32);
-    let got: Vec<f64> = outcome.values.iter().map(|v| f64::from(*v)).collect();
+    let got = program.output.numbers(&outcome.values);
     let got_shown = sentence(&program.output, &got, Precision::F32);
     let taken = outcome.row.map(|taken| &program.rows[taken]);
     let counts = match program.hit_policy {
@@ -76,7 +76,9 @@ fn run(program: &Program, interpreter: &mut Interpreter<'_, f32>, example: &Exam
             .zip(&example.expected)
             .zip(allowed)
             .all(|((got, expected), allowed)| (got - expected).abs() <= allowed),
-        None => got.iter().zip(&example.expected).all(|(got, expected)| agrees(*expected, *got)),
+        None => got.iter().zip(&example.expected).zip(program.output.components()).all(|((got, expected), of)| {
+            if of.scalar == Scalar::Word { got == expected } else { agrees(*expected, *got) }
+        }),
     };
     if agree {
         return None;

@@ -69,7 +69,12 @@ fn findings(program: &Program) -> Vec<Diagnostic> {
 /// The lengths among the components of an output, and the most that each can be.
 fn collect(output: &Output, at: usize, found: &mut Vec<(usize, usize)>) {
     match output {
-        Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::Enumeration(_) => {}
+        Output::Number(_)
+        | Output::Vector(..)
+        | Output::Bool
+        | Output::Int(..)
+        | Output::U32
+        | Output::Enumeration(_) => {}
         Output::Record(fields) => {
             fields.iter().fold(at, |at, (_, of)| {
                 collect(of, at, found);
@@ -91,9 +96,13 @@ fn most(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, f64>) -> f64 {
     let found = match pool.node(expr) {
         Node::Const(number) => number.get(),
         Node::Select(_, a, b) => most(pool, a, known).max(most(pool, b, known)),
-        Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Unary(..) | Node::Binary(..) | Node::Ternary(..) => {
-            f64::INFINITY
-        }
+        Node::Word(_)
+        | Node::Input(_)
+        | Node::Index(_)
+        | Node::Result(_)
+        | Node::Unary(..)
+        | Node::Binary(..)
+        | Node::Ternary(..) => f64::INFINITY,
     };
     known.insert(expr, found);
     found

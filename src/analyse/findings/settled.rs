@@ -73,7 +73,8 @@ fn candidates(study: &mut Study<'_>, value: ExprId) -> Vec<f64> {
     let ends = match pool.node(value) {
         Node::Ternary(TernaryOp::Clamp, _, lo, hi) => [pool.constant(lo), pool.constant(hi)],
         Node::Const(number) => [Some(number.get()), None],
-        Node::Input(_)
+        Node::Word(_)
+        | Node::Input(_)
         | Node::Index(_)
         | Node::Result(_)
         | Node::Unary(..)

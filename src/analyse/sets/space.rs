@@ -376,6 +376,10 @@ impl<'p> Space<'p> {
                 return Set::EMPTY;
             }
         }
+        if let Some(beside) = self.beside(&form) {
+            let less = self.positive(beside);
+            return self.sets.not(less);
+        }
         let Some(leading) = form.terms.values().next().copied() else { return Set::EMPTY };
         let Some(canonical) = leading.reciprocal().and_then(|factor| form.times(factor)) else {
             self.too_large = true;
@@ -398,14 +402,30 @@ impl<'p> Space<'p> {
         self.sets.atom(digit, LevelSet::one(code(wanted)))
     }
 
+    /// Of a word less another one, the form that is positive where this is not: what is more than a word is the next
+    /// one at least. So all that is asked of a word is whether it is less than others, and nothing lies between two.
+    fn beside(&self, form: &Affine) -> Option<Affine> {
+        let mut terms = form.terms.iter();
+        let (Some((term, factor)), None) = (terms.next(), terms.next()) else { return None };
+        let is_word = match term {
+            Term::Input(input) => self.program.inputs[input.index()].domain == Domain::Word,
+            Term::Unary(op, _) => op.row().gives_word,
+            Term::Binary(op, ..) => op.row().is_on_words,
+            Term::Constant(_) | Term::Ternary(..) => false,
+        };
+        let is_whole = is_word && *factor == Rational::ONE && form.constant.to_f64().fract() == 0.0;
+        is_whole
+            .then(|| form.times(Rational::whole(-1)))
+            .flatten()
+            .and_then(|form| Some(Affine { constant: form.constant.plus(Rational::ONE)?, ..form }))
+    }
+
     /// The bounds of a form, each input taken for itself.
     fn bounds(&self, form: &Affine) -> Option<(Rational, Rational)> {
         let (mut lo, mut hi) = (form.constant, form.constant);
         for (term, factor) in &form.terms {
             let Term::Input(input) = term else { return None };
-            let Domain::Continuous { lo: from, hi: to, .. } = self.program.inputs[input.index()].domain else {
-                return None;
-            };
+            let (from, to) = self.program.inputs[input.index()].domain.range()?;
             let (a, b) = (Rational::exact(from)?.times(*factor)?, Rational::exact(to)?.times(*factor)?);
             lo = lo.plus(a.min(b))?;
             hi = hi.plus(a.max(b))?;
@@ -449,7 +469,7 @@ impl<'p> Space<'p> {
             return known.clone();
         }
         let parts = match self.pool.node(expr) {
-            Node::Const(_) | Node::Result(_) => vec![(Set::ALL, expr)],
+            Node::Const(_) | Node::Word(_) | Node::Result(_) => vec![(Set::ALL, expr)],
             Node::Input(input) => {
                 let inner = self.views[view.0].inner;
                 let image = self.views[view.0].numbers.get(&input).copied();
@@ -539,7 +559,7 @@ impl<'p> Space<'p> {
     fn component_with_result(&mut self, map: ExprId, values: &[ExprId]) -> ExprId {
         match self.pool.node(map) {
             Node::Result(component) => values.get(usize::from(component)).copied().unwrap_or(map),
-            Node::Const(_) | Node::Input(_) | Node::Index(_) => map,
+            Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) => map,
             node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
                 let node = node.map(|part| self.component_with_result(part, values));
                 self.pool.fold(node)

@@ -188,7 +188,7 @@ impl<'p> Study<'p> {
     pub(in crate::analyse) fn inside(&mut self, image: &[(InputId, ExprId)]) -> Set {
         let program = self.program;
         image.iter().fold(Set::ALL, |all, (input, number)| match program.inputs[input.index()].domain {
-            Domain::Discrete(_) => all,
+            Domain::Discrete(_) | Domain::Word => all,
             Domain::Continuous { lo, hi, .. } => {
                 let pool = &mut self.space.pool;
                 let [lo, hi] = [lo, hi].map(|bound| pool.number(bound));

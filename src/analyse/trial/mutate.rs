@@ -226,7 +226,7 @@ impl Vocabulary {
                 Domain::LevelsOf(of) => {
                     levels.iter().find(|(name, _)| *name == of.value).map_or_else(Vec::new, |(_, list)| list.clone())
                 }
-                Domain::Bool | Domain::Int(..) | Domain::Range(..) => continue,
+                Domain::Bool | Domain::Int(..) | Domain::Range(..) | Domain::U32 => continue,
             };
             levels.push((input.name.value.clone(), known));
         }

@@ -23,6 +23,7 @@ fn result_at(pool: &Pool, map: ExprId, values: &[f64]) -> Option<f64> {
     Some(match pool.node(map) {
         Node::Result(component) => *values.get(usize::from(component))?,
         Node::Const(number) => number.get(),
+        Node::Word(word) => f64::from(word),
         Node::Unary(op, a) => op.apply(at(a)?),
         Node::Binary(op, a, b) => op.apply(at(a)?, at(b)?),
         Node::Ternary(op, a, b, c) => op.apply(at(a)?, at(b)?, at(c)?),
@@ -173,7 +174,7 @@ pub(in crate::analyse) fn chosen(pool: &mut Pool, value: ExprId, point: &Point) 
         return value;
     }
     match pool.node(value) {
-        Node::Const(_) | Node::Input(_) | Node::Result(_) => value,
+        Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Result(_) => value,
         Node::Index(input) => pool.number(f64::from(point.levels[input.index()])),
         node @ (Node::Unary(..) | Node::Binary(..) | Node::Ternary(..)) => {
             let node = node.map(|part| chosen(pool, part, point));

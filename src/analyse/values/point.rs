@@ -73,7 +73,7 @@ impl Point {
     pub(in crate::analyse) fn is_admitted(&self, program: &Program) -> bool {
         let inside = |(input, number): (&Input, &f64)| match input.domain {
             Domain::Continuous { lo, hi, .. } => (lo..=hi).contains(number),
-            Domain::Discrete(_) => true,
+            Domain::Discrete(_) | Domain::Word => true,
         };
         program.inputs.iter().zip(&self.numbers).all(inside)
             && program.assumptions.iter().all(|assumption| self.holds(&program.pool, assumption.condition))
@@ -104,6 +104,7 @@ impl Point {
         let at = |expr| self.number(pool, expr);
         match pool.node(expr) {
             Node::Const(number) => number.get(),
+            Node::Word(word) => f64::from(word),
             Node::Input(input) => self.numbers[input.index()],
             Node::Index(input) => f64::from(self.levels[input.index()]),
             Node::Result(_) => f64::NAN,

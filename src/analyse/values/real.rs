@@ -21,7 +21,7 @@ impl Boxed {
     /// Everything that the inputs can be.
     pub(in crate::analyse) fn domain(program: &Program) -> Self {
         let bounds = |domain: &Domain| match domain {
-            Domain::Continuous { lo, hi, .. } => (*lo, *hi),
+            Domain::Continuous { .. } | Domain::Word => domain.range().unwrap_or_default(),
             Domain::Discrete(_) => (0.0, 0.0),
         };
         let (lo, hi) = program.inputs.iter().map(|input| bounds(&input.domain)).unzip();
@@ -92,7 +92,7 @@ pub(in crate::analyse) struct Trouble {
 pub(in crate::analyse) fn is_partial(pool: &Pool, expr: ExprId) -> bool {
     let any = |parts: &[ExprId]| parts.iter().any(|part| is_partial(pool, *part));
     match pool.node(expr) {
-        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => false,
+        Node::Const(_) | Node::Word(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) => false,
         Node::Unary(op, a) => !op.row().is_plain || any(&[a]),
         Node::Binary(BinaryOp::Divide, a, b) if pool.constant(b).is_some() => any(&[a, b]),
         Node::Binary(BinaryOp::Multiply, a, b) if pool.constant(a).is_none() && pool.constant(b).is_none() => true,
@@ -179,6 +179,7 @@ fn evaluate(pool: &Pool, expr: ExprId, part: &Boxed, trouble: &mut Option<Troubl
     let mut at = |expr| evaluate(pool, expr, part, trouble);
     let (result, what) = match pool.node(expr) {
         Node::Const(number) => ((number.get(), number.get()), None),
+        Node::Word(word) => ((f64::from(word), f64::from(word)), None),
         Node::Input(input) => (part.of(input), None),
         Node::Index(_) | Node::Result(_) | Node::Select(..) => (ANY, None),
         Node::Unary(op, a) => op.image(at(a)),

@@ -9,7 +9,9 @@ use std::collections::{HashMap, HashSet};
 use crate::eval::{Interpreter, Outcome};
 use crate::points::random::Random;
 use crate::program::operators::{BinaryAlgebra, Image, TernaryAlgebra, UnaryAlgebra};
-use crate::program::{BinaryOp, Cond, CondId, Domain, ExprId, Input, InputId, InputSet, Node, Pool, Program, Value};
+use crate::program::{
+    BinaryOp, Cond, CondId, Domain, ExprId, Input, InputId, InputSet, Node, Number, Pool, Program, UnaryOp, Value,
+};
 
 /// Most combinations of levels that are tried for a point.
 const MAX_COMBINATIONS: usize = 4096;
@@ -87,7 +89,12 @@ impl<'p> Rounding<'p> {
 
     /// Returns whether an expression has few values, all of which `f32` computes exactly.
     pub(in crate::analyse) fn is_exact(&mut self, expr: ExprId) -> bool {
-        self.grid(expr).is_some()
+        self.is_exact_word(expr) || self.grid(expr).is_some()
+    }
+
+    /// Returns whether an expression is a word that depends on no rounded number.
+    fn is_exact_word(&mut self, expr: ExprId) -> bool {
+        self.pool.is_word(expr) && self.is_faithful(expr)
     }
 
     /// Returns whether a condition compares numbers that `f32` may have rounded.
@@ -115,14 +122,16 @@ impl<'p> Rounding<'p> {
         // These pass one of their operands on, or the whole number beside it.
         let passes = match node {
             Node::Const(number) => f64::from(number.get() as f32) == number.get(),
-            Node::Input(_) | Node::Index(_) => true,
+            Node::Word(_) | Node::Input(_) | Node::Index(_) => true,
             Node::Result(_) => false,
+            Node::Unary(op, _) if op.row().gives_word => true,
             Node::Unary(op, _) => op.row().algebra != UnaryAlgebra::Opaque || op.row().image == Image::Steps,
+            Node::Binary(op, ..) if op.row().is_on_words => true,
             Node::Binary(op, ..) => matches!(op.row().algebra, BinaryAlgebra::Minimum | BinaryAlgebra::Maximum),
             Node::Ternary(op, ..) => op.row().algebra == TernaryAlgebra::Clamp,
             Node::Select(condition, ..) => !self.decides(condition),
         };
-        let faithful = (passes && node.children().all(|part| self.is_faithful(part))) || self.is_exact(expr);
+        let faithful = (passes && node.children().all(|part| self.is_faithful(part))) || self.grid(expr).is_some();
         self.faithful.insert(expr, faithful);
         faithful
     }
@@ -140,7 +149,11 @@ impl<'p> Rounding<'p> {
         match self.pool.node(expr) {
             Node::Const(number) => Grid::of(number.get()),
             Node::Index(_) => Some(Grid { unit: 1.0, most: crate::program::MAX_LEVELS as f64 }),
-            Node::Input(_) | Node::Result(_) => None,
+            Node::Word(_) | Node::Input(_) | Node::Result(_) => None,
+            // Of a word that is small, the number.
+            Node::Unary(UnaryOp::NumberOfWord, a) if self.is_exact_word(a) => {
+                Grid { unit: 1.0, most: self.pool.expr_facts(a).range.1 }.checked()
+            }
             Node::Unary(op, a) => {
                 let a = self.grid(a)?;
                 match op.row().algebra {
@@ -210,8 +223,9 @@ pub(in crate::analyse) fn point_in_f32(
 fn numbers(program: &Program, relevant: InputSet) -> Vec<Vec<Option<Value>>> {
     let usual = |(id, input): (InputId, &Input)| match input.domain {
         Domain::Discrete(_) => Some(input.default.unwrap_or(Value::Level(0))),
-        Domain::Continuous { lo, hi, .. } => {
-            let middle = f64::from((lo + (hi - lo) / 2.0) as f32).clamp(lo, hi);
+        Domain::Continuous { .. } | Domain::Word => {
+            let (lo, hi) = input.domain.span();
+            let middle = input.domain.given(lo + (hi - lo) / 2.0).clamp(lo, hi);
             Some(input.default.filter(|_| !relevant.contains(id)).unwrap_or(Value::Number(middle)))
         }
     };
@@ -219,8 +233,10 @@ fn numbers(program: &Program, relevant: InputSet) -> Vec<Vec<Option<Value>>> {
     let ranges: Vec<(InputId, f64, f64)> = program
         .input_ids()
         .filter_map(|(id, input)| match input.domain {
-            Domain::Continuous { lo, hi, .. } if relevant.contains(id) => Some((id, lo, hi)),
-            Domain::Continuous { .. } | Domain::Discrete(_) => None,
+            Domain::Continuous { .. } | Domain::Word if relevant.contains(id) => {
+                input.domain.range().map(|(lo, hi)| (id, lo, hi))
+            }
+            Domain::Continuous { .. } | Domain::Word | Domain::Discrete(_) => None,
         })
         .collect();
     let mut all = vec![usual.clone()];
@@ -231,15 +247,25 @@ fn numbers(program: &Program, relevant: InputSet) -> Vec<Vec<Option<Value>>> {
     let with = |number: &mut dyn FnMut(f64, f64) -> f64| {
         let mut point = usual.clone();
         for (id, lo, hi) in &ranges {
-            point[id.index()] = Some(Value::Number(f64::from(number(*lo, *hi) as f32).clamp(*lo, *hi)));
+            let domain = &program.inputs[id.index()].domain;
+            point[id.index()] = Some(Value::Number(domain.given(number(*lo, *hi)).clamp(*lo, *hi)));
         }
         point
     };
     all.push(with(&mut |lo, _| lo));
     all.push(with(&mut |_, hi| hi));
     let mut seen = HashSet::new();
-    let constants =
-        program.pool.nodes().filter_map(|node| if let Node::Const(number) = node { Some(number) } else { None });
+    let constants = program.pool.nodes().filter_map(|node| match node {
+        Node::Const(number) => Some(number),
+        Node::Word(word) => Some(Number::new(f64::from(word))),
+        Node::Input(_)
+        | Node::Index(_)
+        | Node::Result(_)
+        | Node::Unary(..)
+        | Node::Binary(..)
+        | Node::Ternary(..)
+        | Node::Select(..) => None,
+    });
     for number in constants.filter(|number| seen.insert(*number)).take(MAX_CONSTANTS) {
         all.push(with(&mut |_, _| number.get()));
     }

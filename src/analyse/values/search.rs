@@ -91,6 +91,7 @@ fn fails_nearby(program: &Program, pool: &Pool, value: ExprId, point: &Point) ->
     [f32::next_down as fn(f32) -> f32, |number| number, f32::next_up].into_iter().find_map(|beside| {
         let mut near = point.clone();
         for (id, input) in program.input_ids() {
+            // A word has no neighbour that is nearer than another word.
             if let Domain::Continuous { lo, hi, .. } = input.domain {
                 let number = &mut near.numbers[id.index()];
                 *number = f64::from(beside(*number as f32)).clamp(lo, hi);
@@ -105,6 +106,8 @@ fn fails(pool: &Pool, value: ExprId, point: &Point) -> Option<f32> {
     let at = |part| fails(pool, part, point);
     let result = match pool.node(value) {
         Node::Const(number) => number.get() as f32,
+        Node::Word(word) => f32::from_word(word),
+        Node::Input(input) if pool.is_word(value) => f32::from_word(point.numbers[input.index()] as u32),
         Node::Input(input) => point.numbers[input.index()] as f32,
         Node::Index(input) => f32::from(point.levels[input.index()]),
         Node::Result(_) => return None,
@@ -113,5 +116,5 @@ fn fails(pool: &Pool, value: ExprId, point: &Point) -> Option<f32> {
         Node::Ternary(op, a, b, c) => f32::ternary(op, at(a)?, at(b)?, at(c)?),
         Node::Select(condition, a, b) => at(if point.holds(pool, condition) { a } else { b })?,
     };
-    result.is_finite().then_some(result)
+    (pool.is_word(value) || result.is_finite()).then_some(result)
 }

@@ -149,6 +149,7 @@ impl Reader<'_> {
     fn most(&self, input: InputId) -> f64 {
         match self.program.inputs[input.index()].domain {
             Domain::Continuous { lo, hi, .. } => lo.abs().max(hi.abs()),
+            Domain::Word => f64::from(u32::MAX),
             Domain::Discrete(_) => f64::INFINITY,
         }
     }
@@ -172,7 +173,7 @@ impl Reader<'_> {
                 let terms = BTreeMap::from([(Product { powers, ..Product::default() }, 1.0)]);
                 Some(Sum { terms, size: self.most(input) })
             }
-            Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
+            Node::Word(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => None,
             Node::Unary(op, a) => {
                 let a = self.sum(a)?;
                 match (op, op.row().algebra, a.number()) {

@@ -39,7 +39,7 @@ impl Points {
     pub(super) fn new(program: &Program) -> Self {
         // What a function has no use for may be left out, and is then anything.
         let idle = |(id, input): (InputId, &Input)| match input.domain {
-            Domain::Continuous { lo, .. } if optional(program, id) => Some(Value::Number(lo)),
+            Domain::Continuous { .. } | Domain::Word if optional(program, id) => Some(Value::Number(input.least())),
             Domain::Discrete(_) if optional(program, id) => Some(Value::Level(0)),
             _ => None,
         };

@@ -99,7 +99,7 @@ impl<'a, 'p> Body<'a, 'p> {
         }
         for input in needs.iter() {
             let declared = &program.inputs[input.index()];
-            if declared.fetched.is_some() || matches!(declared.domain, Domain::Continuous { .. }) {
+            if declared.fetched.is_some() || declared.domain.range().is_some() {
                 parameters.push((declared.ident.clone(), input_type(&declared.domain, Scalar::Uint).into()));
             }
         }
@@ -216,7 +216,7 @@ impl<'a, 'p> Body<'a, 'p> {
         let (ident, ty) = self.names.fetched(self.plan.program, input);
         let nothing = match ty {
             Scalar::Float => self.dialect.number(self.plan.program.inputs[input.index()].least()),
-            Scalar::Uint | Scalar::Int | Scalar::Bool => self.dialect.zero(ty),
+            Scalar::Uint | Scalar::Int | Scalar::Bool | Scalar::Word => self.dialect.zero(ty),
         };
         self.text.line(self.dialect.variable(&ty.into(), &ident, &nothing, self.prefix));
         if self.plan.pool.truth(condition) == Some(false) {

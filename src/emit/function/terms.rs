@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use super::body::Body;
 use crate::emit::language::{Type, bare, value};
 use crate::plan::Leaf;
-use crate::program::{BinaryOp, Comparison, Cond, CondId, DataType, ExprId, LevelSet, Node, Pool, Scalar};
+use crate::program::{BinaryOp, Comparison, Cond, CondId, DataType, ExprId, LevelSet, Node, Pool, Scalar, UnaryOp};
 
 /// Most choices of a result that are written where they stand; of more, those that stand in several places get a local.
 const MAX_REPEATED: u32 = 64;
@@ -59,14 +59,14 @@ impl Body<'_, '_> {
             data.components().iter().map(|component| component.scalar).zip(leaf.values.iter().copied()).collect();
         self.computed_constants(&leaf.values, &[]);
         let numbers = components.iter().filter(|(scalar, value)| match scalar {
-            Scalar::Float => true,
+            Scalar::Float | Scalar::Word => true,
             Scalar::Uint | Scalar::Int => self.is_calculated(*value),
             Scalar::Bool => false,
         });
         self.declare(&numbers.map(|(_, value)| *value).collect::<Vec<_>>());
         let shared = self.shared_choices(&components);
         let components = components.iter().map(|(scalar, value)| match scalar {
-            Scalar::Float => bare(&self.expr(*value)).to_owned(),
+            Scalar::Float | Scalar::Word => bare(&self.expr(*value)).to_owned(),
             Scalar::Uint | Scalar::Int | Scalar::Bool => bare(&self.choice(*scalar, *value, &shared)).to_owned(),
         });
         let value = value(self.dialect, self.prefix, &data, components);
@@ -117,10 +117,15 @@ impl Body<'_, '_> {
             if self.scope.value(constant).is_none() {
                 let name = self.temporary();
                 let value = self.expr(constant);
-                self.text.line(self.dialect.local(&Type::FLOAT, &name, bare(&value), self.prefix));
+                self.text.line(self.dialect.local(&self.type_of(constant), &name, bare(&value), self.prefix));
                 self.scope.name(constant, name);
             }
         }
+    }
+
+    /// The type that an expression has in code.
+    pub(super) fn type_of(&self, expr: ExprId) -> Type {
+        if self.plan.pool.is_word(expr) { Scalar::Word.into() } else { Type::FLOAT }
     }
 
     pub(in crate::emit) fn expr(&self, expr: ExprId) -> String {
@@ -130,6 +135,7 @@ impl Body<'_, '_> {
         let of = |e: ExprId| self.expr(e);
         match self.plan.pool.node(expr) {
             Node::Const(number) => self.dialect.number(number.get()),
+            Node::Word(word) => self.dialect.word(word),
             Node::Input(input) => {
                 let ident = &self.plan.program.inputs[input.index()].ident;
                 self.renamed.get(ident).unwrap_or(ident).clone()
@@ -140,6 +146,11 @@ impl Body<'_, '_> {
             }
             // In the result map of a symmetry.
             Node::Result(component) => self.result.get(usize::from(component)).cloned().unwrap_or_default(),
+            // A whole number that may be negative is an integer first.
+            Node::Unary(UnaryOp::WordOfWhole, a) => match self.plan.pool.expr_facts(a).range.0 < 0.0 {
+                true => self.dialect.unary(self.prefix, UnaryOp::WordOfWhole, &self.whole(a, Scalar::Int)),
+                false => self.whole(a, Scalar::Uint),
+            },
             Node::Unary(op, a) => self.dialect.unary(self.prefix, op, &of(a)),
             Node::Binary(BinaryOp::WholeQuotient | BinaryOp::WholeRemainder, ..) => {
                 self.dialect.converted(Scalar::Int, Scalar::Float, &self.whole(expr, Scalar::Int))
@@ -160,7 +171,7 @@ impl Body<'_, '_> {
     fn shared_choices(&mut self, components: &[(Scalar, ExprId)]) -> Shared {
         let pool = &self.plan.pool;
         let (mut uses, mut sizes) = (HashMap::new(), HashMap::new());
-        let choices = components.iter().filter(|(scalar, _)| *scalar != Scalar::Float);
+        let choices = components.iter().filter(|(scalar, _)| !matches!(scalar, Scalar::Float | Scalar::Word));
         let size = choices.fold(0_u32, |all, (scalar, value)| {
             all.saturating_add(count_choices(pool, (*scalar, *value), &mut uses, &mut sizes))
         });
@@ -201,7 +212,7 @@ impl Body<'_, '_> {
                 self.dialect.select(bare(&condition), &a, &b)
             }
             (_, Scalar::Uint | Scalar::Int) => self.whole(expr, scalar),
-            (_, Scalar::Float) => self.expr(expr),
+            (_, Scalar::Float | Scalar::Word) => self.expr(expr),
             (_, Scalar::Bool) => known(expr).is_some_and(|value| value != 0.0).to_string(),
         }
     }

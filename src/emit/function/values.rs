@@ -11,7 +11,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use super::body::Body;
 use super::scope::Scope;
 use crate::emit::language::{Type, bare, call};
-use crate::program::{CondId, ExprId, Node, Pool, UnaryOp};
+use crate::program::{CondId, ExprId, Node, Pool, Scalar, UnaryOp};
 
 /// Deepest nesting of a printed expression; what is deeper gets a local.
 /// Front ends recurse, and some give up at about seventy levels.
@@ -96,13 +96,12 @@ impl Body<'_, '_> {
         let depth = 1 + node.children().filter_map(|c| depths.get(&c)).max().copied().unwrap_or(0);
         depths.insert(expr, depth);
         let label = pool.label(expr);
-        let trivial = matches!(node, Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_));
-        if trivial || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
+        if node.is_leaf() || !(shared || depth >= MAX_NESTING || (label.is_some() && !is_result)) {
             return;
         }
         let name = self.name_for(expr);
         let value = self.expr(expr);
-        self.text.line(self.dialect.local(&Type::FLOAT, &name, bare(&value), self.prefix));
+        self.text.line(self.dialect.local(&self.type_of(expr), &name, bare(&value), self.prefix));
         self.scope.name(expr, name);
         depths.insert(expr, 0);
     }
@@ -128,8 +127,9 @@ impl Body<'_, '_> {
                 group.push((*other, self.name_for(*other), yes, no));
             }
         }
-        for (_, name, ..) in &group {
-            self.text.line(self.dialect.number_later(name));
+        for (expr, name, ..) in &group {
+            let scalar = if self.plan.pool.is_word(*expr) { Scalar::Word } else { Scalar::Float };
+            self.text.line(self.dialect.later(scalar, name));
         }
         let test = self.condition(condition);
         self.text.open(self.dialect.if_open(bare(&test)));
@@ -179,6 +179,7 @@ impl Body<'_, '_> {
                 }
             },
             node @ (Node::Const(_)
+            | Node::Word(_)
             | Node::Input(_)
             | Node::Index(_)
             | Node::Result(_)
@@ -274,9 +275,13 @@ fn is_safe(pool: &Pool, expr: ExprId, known: &mut HashMap<ExprId, bool>) -> bool
 /// Returns whether an operation is cheap and has a finite result for all finite operands that are not huge.
 fn cannot_fail(node: Node) -> bool {
     match node {
-        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Ternary(..) | Node::Select(..) => {
-            true
-        }
+        Node::Const(_)
+        | Node::Word(_)
+        | Node::Input(_)
+        | Node::Index(_)
+        | Node::Result(_)
+        | Node::Ternary(..)
+        | Node::Select(..) => true,
         Node::Unary(op, _) => op.row().is_plain,
         Node::Binary(op, ..) => op.row().is_plain,
     }

@@ -32,6 +32,9 @@ impl Body<'_, '_> {
                 let (a, b) = (self.whole(a, scalar), self.whole(b, scalar));
                 return self.dialect.select(bare(&self.condition(c)), bare(&a), bare(&b));
             }
+            Node::Unary(UnaryOp::NumberOfWord, a) => {
+                return self.dialect.converted(Scalar::Uint, scalar, &self.expr(a));
+            }
             Node::Unary(UnaryOp::Negate, a) => format!("(-{})", integer(a)),
             Node::Unary(UnaryOp::Abs, a) => self.dialect.int_function("abs", &[&integer(a)]),
             Node::Binary(op, a, b) => {
@@ -44,6 +47,10 @@ impl Body<'_, '_> {
                     BinaryOp::WholeRemainder => "%",
                     BinaryOp::Min | BinaryOp::Max | BinaryOp::Divide | BinaryOp::Remainder => "",
                     BinaryOp::Atan2 | BinaryOp::Pow | BinaryOp::Step => "",
+                    BinaryOp::WordAdd | BinaryOp::WordSubtract | BinaryOp::WordMultiply => "",
+                    BinaryOp::WordQuotient | BinaryOp::WordRemainder | BinaryOp::WordMax | BinaryOp::WordMin => "",
+                    BinaryOp::WordAnd | BinaryOp::WordOr | BinaryOp::WordXor => "",
+                    BinaryOp::ShiftLeft | BinaryOp::ShiftRight => "",
                 };
                 let parts = operands.each_ref().map(String::as_str);
                 match (symbol, op) {
@@ -60,7 +67,7 @@ impl Body<'_, '_> {
                 let raised = self.dialect.int_function("max", &[&integer(a), &integer(lo)]);
                 self.dialect.int_function("min", &[&raised, &integer(hi)])
             }
-            Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Ternary(..) => {
+            Node::Word(_) | Node::Input(_) | Node::Result(_) | Node::Unary(..) | Node::Ternary(..) => {
                 return self.dialect.converted(Scalar::Float, scalar, &self.expr(expr));
             }
         };

@@ -7,7 +7,7 @@
 
 pub(crate) mod wgpu;
 
-use super::inputs::{fetched_type, fetches};
+use super::inputs::{beside_the_key, fetched_type, fetches};
 use super::language::rust::Rust;
 use super::language::{Dialect, Prefix, Type, structures};
 use super::module;
@@ -216,8 +216,7 @@ impl Side<'_, '_> {
 
     /// The parts of [`Self::inputs`] besides the key.
     fn continuous(&self) -> impl Iterator<Item = &Input> {
-        let plain = self.program.inputs.iter().filter(|input| input.fetched.is_none());
-        plain.filter(|input| matches!(input.domain, Domain::Continuous { .. }))
+        beside_the_key(self.program)
     }
 
     fn inputs(&self, text: &mut Text) {
@@ -240,7 +239,9 @@ impl Side<'_, '_> {
     }
 
     fn fields(&self) -> Vec<(String, &'static str)> {
-        let numbers = self.continuous().map(|input| (input.ident.clone(), "f32"));
+        let numbers = self
+            .continuous()
+            .map(|input| (input.ident.clone(), if input.domain == Domain::Word { "u32" } else { "f32" }));
         [("key".to_owned(), "u32")].into_iter().chain(numbers).collect()
     }
 
@@ -249,7 +250,7 @@ impl Side<'_, '_> {
         let fetched = self.program.inputs.iter().filter(|input| input.fetched.is_some());
         let ty = |input: &Input| match fetched_type(&input.domain) {
             Scalar::Float => "f32",
-            Scalar::Uint | Scalar::Bool => "u32",
+            Scalar::Uint | Scalar::Bool | Scalar::Word => "u32",
             Scalar::Int => "i32",
         };
         fetched.map(|input| (input.ident.clone(), ty(input))).collect()

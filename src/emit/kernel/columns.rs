@@ -8,12 +8,12 @@
 
 use std::fmt::Write;
 
-use crate::emit::inputs::{Fetch, fetches, input_type};
+use crate::emit::inputs::{Fetch, beside_the_key, fetches, input_type};
 use crate::emit::language::glsl::{Glsl, GlslVersion};
 use crate::emit::language::wgsl::Wgsl;
 use crate::emit::language::{Dialect, Prefix, words};
 use crate::emit::module;
-use crate::program::{Domain, Program, Scalar};
+use crate::program::{Program, Scalar};
 use crate::prove::Proved;
 
 /// Threads of a workgroup.
@@ -274,16 +274,16 @@ pub(in crate::emit) fn fetched_word(layout: &Layout, index: usize) -> String {
 }
 
 fn arguments(program: &Program, entry: Entry, dialect: &dyn Dialect) -> Vec<String> {
-    let plain = program.inputs.iter().filter(|input| input.fetched.is_none());
     let word = |index: usize| format!("$plain[at + {index}u]");
     match entry {
         Entry::Key => {
-            let continuous = plain.filter(|input| matches!(input.domain, Domain::Continuous { .. })).count();
-            let numbers = (1..=continuous).map(|index| dialect.float_from_bits(&word(index)));
+            let numbers = beside_the_key(program).zip(1..);
+            let numbers = numbers
+                .map(|(input, index)| dialect.scalar_of_word(input_type(&input.domain, Scalar::Float), &word(index)));
             [word(0)].into_iter().chain(numbers).collect()
         }
         Entry::Levels => {
-            let plain = plain.enumerate();
+            let plain = program.inputs.iter().filter(|input| input.fetched.is_none()).enumerate();
             plain.map(|(i, input)| dialect.scalar_of_word(input_type(&input.domain, Scalar::Float), &word(i))).collect()
         }
     }

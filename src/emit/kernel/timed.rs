@@ -16,11 +16,11 @@
 use std::fmt::Write;
 
 use super::columns::{Entry, Layout, WORKGROUP, fetch_body, fetched_word, name_buffers, wgsl_fetch};
-use crate::emit::inputs::fetches;
+use crate::emit::inputs::{beside_the_key, fetches, input_type};
 use crate::emit::language::wgsl::Wgsl;
 use crate::emit::language::{Dialect, Prefix, words};
 use crate::emit::module;
-use crate::program::{Domain, Input, Program};
+use crate::program::{Domain, Program, Scalar};
 use crate::prove::Proved;
 
 /// The shader that evaluates a plan once per row, a thread so many of them.
@@ -59,7 +59,9 @@ pub fn wgsl_floor(program: &Program, rows: u32) -> String {
     let layout = Layout::new(program, Entry::Key);
     let mut out = buffers(program);
     // Folded into one word, or what is read would not be needed.
-    let numbers = (1..layout.plain).map(|index| format!("bitcast<u32>(number_{index})"));
+    let numbers = beside_the_key(program).zip(1..).map(|(input, index)| {
+        Wgsl::Plain.word_of_scalar(input_type(&input.domain, Scalar::Float), &format!("number_{index}"))
+    });
     let words: Vec<String> = ["key".to_owned()].into_iter().chain(numbers).collect();
     let evaluation = format!("let word = {};", words.join(" ^ "));
     kernel(&mut out, program, &layout, rows, &evaluation, &vec!["word".to_owned(); layout.values]);
@@ -84,8 +86,10 @@ fn kernel(out: &mut String, program: &Program, layout: &Layout, rows: u32, evalu
     line(format!("\n@compute @workgroup_size({WORKGROUP})"));
     line(format!("fn {}_timed(@builtin(global_invocation_id) id: vec3<u32>) {{", prefix.lower));
     line(format!("    let threads = $plain[0] / {rows}u;\n    if (id.x >= threads) {{\n        return;\n    }}"));
-    for index in 1..layout.plain {
-        line(format!("    var number_{index} = bitcast<f32>($plain[1u + id.x * {}u + {index}u]);", layout.plain));
+    for (input, index) in beside_the_key(program).zip(1..) {
+        let word = format!("$plain[1u + id.x * {}u + {index}u]", layout.plain);
+        let number = Wgsl::Plain.scalar_of_word(input_type(&input.domain, Scalar::Float), &word);
+        line(format!("    var number_{index} = {number};"));
     }
     for index in 0..words.len() {
         line(format!("    var word_{index} = 0u;"));
@@ -103,16 +107,15 @@ fn kernel(out: &mut String, program: &Program, layout: &Layout, rows: u32, evalu
         line(format!("        word_{index} ^= {word};"));
     }
     // By the golden ratio, which comes by everywhere without repeating itself.
-    let moves = |_: &&Input| rows > 1;
-    let ranges = program.inputs.iter().filter(moves).filter(|input| input.fetched.is_none()).filter_map(|input| {
-        match input.domain {
-            Domain::Continuous { lo, hi, .. } => Some((Wgsl::Plain.number(lo), Wgsl::Plain.number(hi - lo))),
-            Domain::Discrete(_) => None,
-        }
-    });
-    for (index, (lo, width)) in ranges.enumerate() {
-        let number = format!("number_{}", index + 1);
-        line(format!("        {number} = {lo} + fract(({number} - {lo}) / {width} + 0.618034) * {width};"));
+    for (input, index) in beside_the_key(program).zip(1..).filter(|_| rows > 1) {
+        let number = format!("number_{index}");
+        line(match input.domain {
+            Domain::Continuous { lo, hi, .. } => {
+                let (lo, width) = (Wgsl::Plain.number(lo), Wgsl::Plain.number(hi - lo));
+                format!("        {number} = {lo} + fract(({number} - {lo}) / {width} + 0.618034) * {width};")
+            }
+            Domain::Word | Domain::Discrete(_) => format!("        {number} = {number} + 2654435769u;"),
+        });
     }
     line("    }".to_owned());
     for index in 0..words.len() {

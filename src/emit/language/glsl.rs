@@ -37,7 +37,7 @@ impl Dialect for Glsl {
     fn scalar(&self, scalar: Scalar) -> &'static str {
         match scalar {
             Scalar::Float => "float",
-            Scalar::Uint => "uint",
+            Scalar::Uint | Scalar::Word => "uint",
             Scalar::Int => "int",
             Scalar::Bool => "bool",
         }

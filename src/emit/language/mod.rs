@@ -160,9 +160,9 @@ pub(super) trait Dialect {
     fn function(&self, name: &str, parameters: &[(String, Type)], result: &Type, prefix: &Prefix) -> String;
     /// Declares a local constant.
     fn local(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String;
-    /// Declares a number that is assigned later.
-    fn number_later(&self, name: &str) -> String {
-        format!("float {name};")
+    /// Declares a number or a word that is assigned later.
+    fn later(&self, scalar: Scalar, name: &str) -> String {
+        format!("{} {name};", self.scalar(scalar))
     }
     /// Declares a local that may be assigned again.
     fn variable(&self, ty: &Type, name: &str, value: &str, prefix: &Prefix) -> String {
@@ -188,6 +188,10 @@ pub(super) trait Dialect {
     fn uint(&self, value: u32) -> String {
         format!("{value}u")
     }
+    /// A word of a table.
+    fn word(&self, value: u32) -> String {
+        self.uint(value)
+    }
     /// A whole number with a sign.
     fn int(&self, value: i32) -> String {
         value.to_string()
@@ -212,7 +216,7 @@ pub(super) trait Dialect {
     fn scalar_of_word(&self, scalar: Scalar, word: &str) -> String {
         match scalar {
             Scalar::Float => self.float_from_bits(word),
-            Scalar::Uint => word.to_owned(),
+            Scalar::Uint | Scalar::Word => word.to_owned(),
             Scalar::Int => self.int_from_bits(word),
             Scalar::Bool => format!("{word} != {}", self.uint(0)),
         }
@@ -221,7 +225,7 @@ pub(super) trait Dialect {
     fn word_of_scalar(&self, scalar: Scalar, value: &str) -> String {
         match scalar {
             Scalar::Float => self.bits_of_float(value),
-            Scalar::Uint => value.to_owned(),
+            Scalar::Uint | Scalar::Word => value.to_owned(),
             Scalar::Int => self.bits_of_int(value),
             Scalar::Bool => self.bool_to_uint(value),
         }
@@ -230,7 +234,7 @@ pub(super) trait Dialect {
     fn zero(&self, scalar: Scalar) -> String {
         match scalar {
             Scalar::Float => self.number(0.0),
-            Scalar::Uint => self.uint(0),
+            Scalar::Uint | Scalar::Word => self.uint(0),
             Scalar::Int => self.int(0),
             Scalar::Bool => "false".to_owned(),
         }

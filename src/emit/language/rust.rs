@@ -14,7 +14,7 @@ impl Dialect for Rust {
     fn scalar(&self, scalar: Scalar) -> &'static str {
         match scalar {
             Scalar::Float => "f32",
-            Scalar::Uint => "u32",
+            Scalar::Uint | Scalar::Word => "u32",
             Scalar::Int => "i32",
             Scalar::Bool => "bool",
         }
@@ -80,8 +80,8 @@ impl Dialect for Rust {
         format!("let mut {name}: {} = {value};", self.ty(ty, prefix))
     }
 
-    fn number_later(&self, name: &str) -> String {
-        format!("let {name}: f32;")
+    fn later(&self, scalar: Scalar, name: &str) -> String {
+        format!("let {name}: {};", self.scalar(scalar))
     }
 
     fn if_open(&self, condition: &str) -> String {
@@ -103,6 +103,10 @@ impl Dialect for Rust {
 
     fn uint(&self, value: u32) -> String {
         value.to_string()
+    }
+
+    fn word(&self, value: u32) -> String {
+        format!("{value}u32")
     }
 
     fn select(&self, condition: &str, then: &str, other: &str) -> String {

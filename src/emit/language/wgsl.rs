@@ -18,7 +18,7 @@ impl Dialect for Wgsl {
     fn scalar(&self, scalar: Scalar) -> &'static str {
         match scalar {
             Scalar::Float => "f32",
-            Scalar::Uint => "u32",
+            Scalar::Uint | Scalar::Word => "u32",
             Scalar::Int => "i32",
             Scalar::Bool => "bool",
         }
@@ -71,8 +71,8 @@ impl Dialect for Wgsl {
         format!("var {name} = {value};")
     }
 
-    fn number_later(&self, name: &str) -> String {
-        format!("var {name}: f32;")
+    fn later(&self, scalar: Scalar, name: &str) -> String {
+        format!("var {name}: {};", self.scalar(scalar))
     }
 
     fn case_open(&self, values: &[u32]) -> String {

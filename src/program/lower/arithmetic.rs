@@ -114,6 +114,7 @@ impl Lowering<'_> {
 
     /// A comparison that the level of one input decides, as the levels for which it holds.
     fn decided_by_level(&mut self, op: Comparison, a: ExprId, b: ExprId) -> Option<CondId> {
+        let words = self.pool.is_word(a);
         let facts = [a, b].map(|side| self.pool.expr_facts(side));
         let inputs: Vec<InputId> = facts[0].inputs.or(facts[1].inputs).iter().collect();
         let [input] = *inputs.as_slice() else { return None };
@@ -126,10 +127,10 @@ impl Lowering<'_> {
         for level in 0..count as u8 {
             let wide = [a, b].map(|side| Tabulation::<f64>::new(&self.pool, input, level).number(side));
             let narrow = [a, b].map(|side| Tabulation::<f32>::new(&self.pool, input, level).number(side));
-            let holds = op.holds(wide[0], wide[1]);
+            let holds = op.holds_of(words, wide[0], wide[1]);
             let told = wide.iter().all(|side| side.is_finite()) && narrow.iter().all(|side| side.is_finite());
             // What is no number has findings of its own, and where f32 decides otherwise, code has to.
-            if !told || holds != op.holds(narrow[0], narrow[1]) {
+            if !(told || words) || holds != op.holds_of(words, narrow[0], narrow[1]) {
                 return None;
             }
             if holds {
@@ -140,6 +141,9 @@ impl Lowering<'_> {
     }
 
     pub(super) fn map1(&mut self, op: UnaryOp, a: Term, span: Span) -> Result<Term> {
+        if let Some(word) = self.word_unary(op, &a, span)? {
+            return Ok(word);
+        }
         if let Some([a]) = self.wholes([&a], span)? {
             return self.whole_unary(op, a, span);
         }
@@ -152,7 +156,7 @@ impl Lowering<'_> {
                 let parts = parts.into_iter().map(|(name, a)| Ok((name, self.map1(op, a, span)?)));
                 Ok(Term::Record(parts.collect::<Result<_>>()?))
             }
-            other @ (Term::Whole(_) | Term::Bool(_) | Term::Level(..) | Term::List(_)) => {
+            other @ (Term::Whole(_) | Term::Word(_) | Term::Bool(_) | Term::Level(..) | Term::List(_)) => {
                 Err(self.no_number(&other, span))
             }
         }
@@ -171,15 +175,18 @@ impl Lowering<'_> {
                     pairs.map(|((name, a), (_, b))| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
                 return Ok(Term::Record(pairs.collect::<Result<_>>()?));
             }
-            (Term::Record(x), Term::Number(_) | Term::Whole(_)) => {
+            (Term::Record(x), Term::Number(_) | Term::Whole(_) | Term::Word(_)) => {
                 let parts = x.iter().map(|(name, a)| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
                 return Ok(Term::Record(parts.collect::<Result<_>>()?));
             }
-            (Term::Number(_) | Term::Whole(_), Term::Record(y)) => {
+            (Term::Number(_) | Term::Whole(_) | Term::Word(_), Term::Record(y)) => {
                 let parts = y.iter().map(|(name, b)| Ok((name.clone(), self.map2(op, a.clone(), b.clone(), span)?)));
                 return Ok(Term::Record(parts.collect::<Result<_>>()?));
             }
             _ => {}
+        }
+        if let Some(word) = self.word_binary(op, &a, &b, span)? {
+            return Ok(word);
         }
         if let Some(limited) = self.wide_binary(op, &a, &b, span)? {
             return Ok(limited);
@@ -196,6 +203,9 @@ impl Lowering<'_> {
     }
 
     pub(super) fn map3(&mut self, op: TernaryOp, a: Term, b: Term, c: Term, span: Span) -> Result<Term> {
+        if let Some(word) = self.word_ternary(op, [&a, &b, &c], span)? {
+            return Ok(word);
+        }
         if let Some(limited) = self.wide_ternary(op, [&a, &b, &c], span)? {
             return Ok(limited);
         }
@@ -234,7 +244,12 @@ impl Lowering<'_> {
                     Term::Level(..) | Term::Bool(_) => {
                         self.later(&b, error.help("`f32(...)` gives the number of a level or condition"))
                     }
-                    Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => error,
+                    Term::Number(_)
+                    | Term::Whole(_)
+                    | Term::Word(_)
+                    | Term::Vector(_)
+                    | Term::List(_)
+                    | Term::Record(_) => error,
                 })
             }
             (a, _) => Err(self.no_number(&a, span)),

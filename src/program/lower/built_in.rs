@@ -72,8 +72,24 @@ static ALL: &[BuiltIn] = &[
         parameters: &[("a", Kind::Value)],
         repeats: false,
         since: 1,
-        doc: "of a level its code; of a condition 1 or 0; of a number itself",
+        doc: "of a level its code; of a condition 1 or 0; of a number itself; of a U32 that number, rounded",
         meaning: Meaning::Written(|lowering, call| lowering.number_of(&call.arguments[0], call.env)),
+    },
+    BuiltIn {
+        name: "u32",
+        parameters: &[("a", Kind::Value)],
+        repeats: false,
+        since: SINCE,
+        doc: "of a number its whole part, limited to U32; of a whole number that number modulo 2^32; of a condition 1 or 0",
+        meaning: Meaning::Written(|lowering, call| lowering.to_word(&call.arguments[0], call.env)),
+    },
+    BuiltIn {
+        name: "i32",
+        parameters: &[("a", Kind::Value)],
+        repeats: false,
+        since: SINCE,
+        doc: "of a U32 that is at most 2^24 the whole number",
+        meaning: Meaning::Written(|lowering, call| lowering.to_whole(&call.arguments[0], call.env)),
     },
     BuiltIn {
         name: "index",
@@ -213,7 +229,7 @@ pub fn signatures() -> impl Iterator<Item = Signature> {
         Notation::Function(name, parameters) => {
             Some(Signature { name, parameters: parameters.to_owned(), doc: op.doc() })
         }
-        Notation::Prefix(_) | Notation::Infix(_) => None,
+        Notation::Shared(_) | Notation::Prefix(_) | Notation::Infix(_) => None,
     });
     operators.chain(ALL.iter().map(|function| {
         let parameters: Vec<&str> = function.parameters.iter().map(|(name, _)| *name).collect();
@@ -278,9 +294,12 @@ impl Lowering<'_> {
         match self.term(argument, env, Expected::Anything)? {
             Term::Number(number) => Ok(vec![number]),
             Term::Vector(parts) => Ok(parts),
-            other @ (Term::Whole(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
-                Err(self.no_number(&other, argument.span))
-            }
+            other @ (Term::Whole(_)
+            | Term::Word(_)
+            | Term::Bool(_)
+            | Term::Level(..)
+            | Term::List(_)
+            | Term::Record(_)) => Err(self.no_number(&other, argument.span)),
         }
     }
 

@@ -82,6 +82,7 @@ impl Lowering<'_> {
     pub(super) fn number_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         match self.term(argument, env, Expected::Anything)? {
             Term::Number(number) | Term::Whole(number) => Ok(Term::Number(number)),
+            Term::Word(word) => Ok(Term::Number(self.number_of_word(word))),
             Term::Level(set, _) if self.is_wide(set) => Err(self.too_wide(set, argument.span)),
             Term::Level(set, term) => {
                 Ok(Term::Number(self.level_number(set, &term, |me, level| me.sets[set.0].codes[usize::from(level)])))
@@ -102,7 +103,12 @@ impl Lowering<'_> {
             Term::Level(set, _) if self.is_wide(set) => Err(self.too_wide(set, argument.span)),
             Term::Level(set, term) => Ok(Term::Whole(self.level_number(set, &term, |_, level| f64::from(level)))),
             Term::Bool(condition) => self.count(&[condition], argument.span),
-            other @ (Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::List(_) | Term::Record(_)) => {
+            other @ (Term::Number(_)
+            | Term::Whole(_)
+            | Term::Word(_)
+            | Term::Vector(_)
+            | Term::List(_)
+            | Term::Record(_)) => {
                 Err(type_error(argument.span, &self.describe(&other), "expected a level or a condition"))
             }
         }

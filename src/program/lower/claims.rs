@@ -136,6 +136,8 @@ impl Lowering<'_> {
     fn claimed(&mut self, term: Term, part: &str, span: Span, all: &mut Vec<(String, ExprId)>) -> Result<()> {
         match term {
             Term::Number(number) | Term::Whole(number) => all.push((part.to_owned(), number)),
+            // Claims are decided in `f64`, which has all words as numbers.
+            Term::Word(word) => all.push((part.to_owned(), self.number_of_word(word))),
             Term::Bool(condition) => {
                 let (one, zero) = (self.pool.number(1.0), self.pool.number(0.0));
                 all.push((part.to_owned(), self.pool.select(condition, one, zero)));

@@ -187,13 +187,13 @@ impl<'t> Lowering<'t> {
                     .help("what may be anywhere in a list is an `Int` input, a level or a condition")
                     .help(format!("`lookup({name}, x)` interpolates at a number from 0 to 1"))),
             },
-            Term::Whole(number) => {
+            Term::Whole(number) | Term::Word(number) => {
                 let (lo, hi) = self.pool.expr_facts(number).range;
                 if !(lo >= 0.0 && hi < count as f64) {
                     let what = if lo < 0.0 { lo } else { hi };
-                    return Err(outside(format!("this can be {what}")).help("limit it with `clamp`, `min` or `%`"));
+                    return Err(outside(format!("this can be {what}")).help("limit it with `clamp`, `min`, `%` or `&`"));
                 }
-                Ok(match self.pool.constant(number) {
+                Ok(match self.pool.known(number) {
                     Some(place) => At::Known(place as usize),
                     None => At::Whole(number, lo as usize..=hi as usize),
                 })
@@ -260,7 +260,10 @@ impl<'t> Lowering<'t> {
                 At::Known(_) => continue,
                 At::Level(set, term, _) => self.level_in(*set, term, LevelSet::one(level as u8)),
                 At::Whole(whole, _) => {
-                    let place = self.pool.number(place as f64);
+                    let place = match self.pool.is_word(*whole) {
+                        true => self.pool.constant_word(place as u32),
+                        false => self.pool.number(place as f64),
+                    };
                     self.pool.compare(Comparison::Equal, *whole, place)
                 }
             };

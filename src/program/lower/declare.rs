@@ -45,7 +45,7 @@ impl<'t> Lowering<'t> {
             }
             if let Some(checked) = keep(self.input(input), errors) {
                 let id = InputId::new(self.inputs.len());
-                self.pool.declare(id, checked.domain.span());
+                self.pool.declare_input(id, &checked.domain);
                 self.input_index.insert(&input.name.value, id);
                 self.inputs.push(checked);
             }
@@ -182,6 +182,10 @@ impl<'t> Lowering<'t> {
                 }
             }
             table::Domain::Range(..) => return Ok(None),
+            table::Domain::U32 => {
+                self.table.since(SINCE, span, "`U32` as an input")?;
+                return Ok(None);
+            }
         };
         if levels.is_wide() {
             self.wide.insert(self.sets.len(), input.name.value.clone());
@@ -212,10 +216,11 @@ impl<'t> Lowering<'t> {
                 }
                 Domain::Continuous { lo: *lo, hi: *hi, unit: unit.clone() }
             }
+            (None, table::Domain::U32) => Domain::Word,
             (
                 None,
                 table::Domain::Levels(_) | table::Domain::LevelsOf(_) | table::Domain::Bool | table::Domain::Int(..),
-            ) => unreachable!("only a range has no levels"),
+            ) => unreachable!("only ranges and words have no levels"),
         };
         if let Some(cost) = &input.fetched
             && !(cost.value.is_finite() && cost.value >= 0.0)

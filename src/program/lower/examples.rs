@@ -30,7 +30,7 @@ impl Lowering<'_> {
         let parts = self.components(term, example.value.span)?;
         let mut expected = Vec::with_capacity(parts.len());
         for part in parts {
-            let Some(value) = self.pool.constant(part.value) else {
+            let Some(value) = self.pool.known(part.value) else {
                 return Err(Diagnostic::error(codes::BAD_EXAMPLE, "an expected value is a constant")
                     .at(example.value.span, "depends on inputs"));
             };

@@ -9,7 +9,7 @@ use super::scope::Env;
 use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
-use crate::program::domain::{Domain, FetchCall, Input};
+use crate::program::domain::{FetchCall, Input};
 use crate::program::pool::{ExprId, InputSet, Node};
 use crate::program::{InputId, Real};
 use crate::table::expr::{Expr, ExprKind};
@@ -117,7 +117,7 @@ impl<'t> Lowering<'t> {
             let parts = match self.term(argument, env, Expected::Anything)? {
                 Term::Number(number) | Term::Whole(number) => vec![number],
                 Term::Vector(parts) => parts,
-                other @ (Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
+                other @ (Term::Word(_) | Term::Bool(_) | Term::Level(..) | Term::List(_) | Term::Record(_)) => {
                     return Err(self.no_number(&other, argument.span));
                 }
             };
@@ -186,6 +186,7 @@ impl<'t> Lowering<'t> {
     fn closed(&self, expr: ExprId) -> Option<f32> {
         Some(match self.pool.node(expr) {
             Node::Const(number) => number.get() as f32,
+            Node::Word(word) => f32::from_word(word),
             Node::Unary(op, a) => f32::unary(op, self.closed(a)?),
             Node::Binary(op, a, b) => f32::binary(op, self.closed(a)?, self.closed(b)?),
             Node::Ternary(op, a, b, c) => f32::ternary(op, self.closed(a)?, self.closed(b)?, self.closed(c)?),
@@ -225,8 +226,8 @@ impl<'t> Lowering<'t> {
         let ident = self.call_ident(&call, calls.len());
         let input = Input { name: call.name(), ident, call: Some(call), ..common.clone() };
         let (set, id) = (*set, InputId::new(self.inputs.len()));
-        if let Domain::Continuous { lo, hi, .. } = input.domain {
-            self.pool.declare(id, (lo, hi));
+        if set.is_none() {
+            self.pool.declare_input(id, &input.domain);
         }
         self.input_sets.push(set);
         self.inputs.push(input);

@@ -145,7 +145,7 @@ impl<'t> Lowering<'t> {
     fn apply(
         &mut self,
         (callee, scope): (Callee<'t>, usize),
-        terms: Vec<Term>,
+        mut terms: Vec<Term>,
         spans: &[Span],
         span: Span,
         env: &Env,
@@ -160,7 +160,7 @@ impl<'t> Lowering<'t> {
         }
         if let Callee::Function(_) = callee {
             let table = self.scopes[scope];
-            for ((term, parameter), at) in terms.iter().zip(callee.parameters()).zip(spans) {
+            for ((term, parameter), at) in terms.iter_mut().zip(callee.parameters()).zip(spans) {
                 self.check_argument(table, parameter, term, *at)?;
             }
         }
@@ -196,10 +196,20 @@ impl<'t> Lowering<'t> {
         })
     }
 
-    /// Refuses an argument that the parameter's domain does not allow.
-    fn check_argument(&self, table: &table::Table, parameter: &Spanned<String>, term: &Term, at: Span) -> Result<()> {
+    /// Refuses an argument that the parameter's domain does not allow. A constant that is given as a word becomes one.
+    fn check_argument(
+        &mut self,
+        table: &table::Table,
+        parameter: &Spanned<String>,
+        term: &mut Term,
+        at: Span,
+    ) -> Result<()> {
         let Some(input) = table.inputs.iter().find(|input| input.name.value == parameter.value) else { return Ok(()) };
-        match (&input.domain.value, term) {
+        match (&input.domain.value, &*term) {
+            (table::Domain::U32, given) => {
+                *term = Term::Word(self.word_of(given, at)?);
+                Ok(())
+            }
             (table::Domain::Range(lo, hi, _), Term::Number(number)) => match self.pool.constant(*number) {
                 Some(value) if !(*lo..=*hi).contains(&value) => {
                     let message = format!("{value} is not in the range {lo} to {hi} of `{}`", parameter.value);

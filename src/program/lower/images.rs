@@ -136,7 +136,7 @@ impl<'t> Lowering<'t> {
         let (mut levels, mut numbers) = (Vec::new(), Vec::new());
         for (input, term) in images {
             match term {
-                Term::Number(expr) => numbers.push((input, expr)),
+                Term::Number(expr) | Term::Word(expr) => numbers.push((input, expr)),
                 Term::Level(_, term) => levels.push((input, (*term).clone())),
                 Term::Bool(condition) => {
                     levels.push((input, self.truth_as_level(condition)));

@@ -56,12 +56,19 @@ impl Lowering<'_> {
         let mut left = self.term(known, env, Expected::Anything)?;
         let right = match &left {
             Term::Level(set, _) => self.level_operand(*set, other, env)?,
-            Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
-                self.term(other, env, Expected::Anything)?
-            }
+            Term::Number(_)
+            | Term::Whole(_)
+            | Term::Word(_)
+            | Term::Vector(_)
+            | Term::Bool(_)
+            | Term::List(_)
+            | Term::Record(_) => self.term(other, env, Expected::Anything)?,
         };
         if let (Term::Number(_), Term::Level(set, _)) = (&left, &right) {
             left = self.level_operand(*set, known, env)?;
+        }
+        if let Some([a, b]) = self.words([&left, &right], false, a.span.to(b.span))? {
+            return Ok(self.comparison(Comparison::Equal, a, b));
         }
         if let Some(condition) = self.wide_compared(Comparison::Equal, [&left, &right], a.span.to(b.span))? {
             return Ok(condition);
@@ -132,9 +139,13 @@ impl Lowering<'_> {
             Term::Whole(whole) if self.is_integer(set) && !self.is_wide(set) => {
                 return self.level_of_whole(set, *whole, expr.span);
             }
-            Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
-                type_error(expr.span, &self.describe(&term), expected)
-            }
+            Term::Number(_)
+            | Term::Whole(_)
+            | Term::Word(_)
+            | Term::Vector(_)
+            | Term::Bool(_)
+            | Term::List(_)
+            | Term::Record(_) => type_error(expr.span, &self.describe(&term), expected),
         };
         Err(error)
     }
@@ -248,6 +259,7 @@ impl Lowering<'_> {
             Term::Level(set, term) => (set, term),
             Term::Bool(condition) => (SetId::BOOL, Arc::new(self.truth_as_level(condition))),
             Term::Whole(expr) => return self.whole_among(expr, levels).map(Term::Bool),
+            Term::Word(word) => return self.word_among(word, levels).map(Term::Bool),
             other @ (Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_)) => {
                 return Err(type_error(value.span, &self.describe(&other), "only discrete inputs have levels"));
             }

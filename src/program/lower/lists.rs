@@ -16,6 +16,7 @@ use super::scope::Env;
 use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, codes};
+use crate::program::Scalar;
 use crate::program::operators::BinaryOp;
 use crate::program::pool::{CondId, ExprId, Node};
 use crate::table::Output;
@@ -167,6 +168,7 @@ impl Lowering<'_> {
             Term::List(list) => Ok(list),
             other @ (Term::Number(_)
             | Term::Whole(_)
+            | Term::Word(_)
             | Term::Vector(_)
             | Term::Bool(_)
             | Term::Level(..)
@@ -189,8 +191,11 @@ impl Lowering<'_> {
         (of, max): (&Output<SetId>, usize),
         span: Span,
     ) -> Result<Vec<ExprId>> {
-        let zero = self.pool.number(0.0);
-        let components = self.in_front(list, (of, max), vec![zero; 1 + max * of.size()])?;
+        let (zero, word) = (self.pool.number(0.0), self.pool.constant_word(0));
+        let scalars = of.components().into_iter().map(|component| component.scalar);
+        let nothing: Vec<ExprId> = scalars.map(|scalar| if scalar == Scalar::Word { word } else { zero }).collect();
+        let nothing = std::iter::once(zero).chain(nothing.repeat(max)).collect();
+        let components = self.in_front(list, (of, max), nothing)?;
         match self.pool.constant(components[0]) {
             Some(length) if length > max as f64 => {
                 Err(Diagnostic::error(codes::TYPE, format!("the list has {length} items"))
@@ -259,7 +264,8 @@ impl Lowering<'_> {
                 let [then, other] = [then, other].map(|part| self.one_more(part, known));
                 self.pool.select(condition, then, other)
             }
-            Node::Result(_)
+            Node::Word(_)
+            | Node::Result(_)
             | Node::Input(_)
             | Node::Index(_)
             | Node::Unary(..)

@@ -61,6 +61,7 @@ pub(super) struct CallKey<'t> {
 enum TermKey {
     Number(ExprId),
     Whole(ExprId),
+    Word(ExprId),
     Vector(Vec<ExprId>),
     Bool(CondId),
     Level(SetId, usize),
@@ -92,6 +93,7 @@ impl TermKey {
         match term {
             Term::Number(number) => TermKey::Number(*number),
             Term::Whole(number) => TermKey::Whole(*number),
+            Term::Word(word) => TermKey::Word(*word),
             Term::Vector(parts) => TermKey::Vector(parts.clone()),
             Term::Bool(condition) => TermKey::Bool(*condition),
             Term::Level(set, term) => TermKey::Level(*set, place(term)),

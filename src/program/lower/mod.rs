@@ -30,6 +30,7 @@ mod terms;
 mod tests;
 mod whole;
 mod wide;
+mod words;
 mod written;
 
 use std::collections::{HashMap, HashSet};
@@ -269,6 +270,7 @@ impl<'t> Lowering<'t> {
         let choices = self.choices();
         let wanted = std::mem::take(&mut self.wanted);
         let Some(default) = default else { return (None, wanted) };
+        let written = written::written(table, &self.pool);
         let program = Program {
             source: table.source.clone(),
             imported: self.imported(),
@@ -293,7 +295,7 @@ impl<'t> Lowering<'t> {
             claims: claims::claims(table, self.programs, errors),
             allow: table.allow.clone(),
             exhibit: table.exhibit.clone(),
-            written: Written { choices, unused_fetches, ..written::written(table) },
+            written: Written { choices, unused_fetches, ..written },
             decided: Vec::new(),
         };
         (Some(program), wanted)

@@ -113,7 +113,7 @@ impl<'t> Lowering<'t> {
                     None => return unsuited(self, input),
                     Some((source, negated)) => Source::Levels(source, if negated { vec![1, 0] } else { vec![0, 1] }),
                 },
-                Term::Number(expr) => {
+                Term::Number(expr) | Term::Word(expr) => {
                     let selects = self.pool.expr_facts(expr).selects;
                     match forms.normal(&self.pool, expr).filter(|_| !selects) {
                         None => return unsuited(self, input),

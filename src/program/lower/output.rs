@@ -10,9 +10,10 @@ use super::whole::whole_components;
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program;
+use crate::program::Scalar;
 use crate::program::domain::LevelKind;
 use crate::program::operators::TernaryOp;
-use crate::program::pool::{ExprId, Node};
+use crate::program::pool::{Component, ExprId, Node};
 use crate::table::Output;
 
 /// The largest whole number of a function, whose range is not declared.
@@ -28,7 +29,7 @@ impl Expected {
     /// The expectation of a value that is to be tied to an output.
     pub(super) fn of(output: &Output<SetId>) -> Self {
         match output {
-            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) => Expected::Anything,
+            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::U32 => Expected::Anything,
             Output::Enumeration(of) => Expected::Level(*of),
             Output::Record(_) | Output::List { .. } => Expected::Result(Rc::new(output.clone())),
         }
@@ -43,8 +44,12 @@ impl Lowering<'_> {
         self.check_collected()?;
         let mut ranges = Vec::new();
         whole_components(&self.output, &mut ranges);
-        let real = |(from, to): (i32, i32)| (f64::from(from), f64::from(to));
-        self.pool.declare_results(ranges.into_iter().map(|range| range.map(real)).collect());
+        let known = |(component, range): (program::Component, Option<(i32, i32)>)| match (component.scalar, range) {
+            (Scalar::Word, _) => Component::Word,
+            (_, Some((from, to))) => Component::Whole((f64::from(from), f64::from(to))),
+            (_, None) => Component::Any,
+        };
+        self.pool.declare_results(self.output.components().into_iter().zip(ranges).map(known).collect());
         self.check_columns(table.output.span)
     }
 
@@ -81,6 +86,10 @@ impl Lowering<'_> {
             Term::Whole(_) => {
                 version_2("a whole number")?;
                 Output::Int(-MAX_WHOLE, MAX_WHOLE)
+            }
+            Term::Word(_) => {
+                version_2("a U32")?;
+                Output::U32
             }
             Term::Vector(parts) => Output::Vector(parts.len(), None),
             Term::Record(parts) => {
@@ -161,6 +170,11 @@ impl Lowering<'_> {
                 let (one, zero) = (self.pool.number(1.0), self.pool.number(0.0));
                 parts.push(free(self.pool.select(condition, one, zero)));
             }
+            (Output::U32, term @ (Term::Word(_) | Term::Number(_) | Term::Whole(_)))
+                if matches!(term, Term::Word(_)) || self.constant_value(&term).is_some() =>
+            {
+                parts.push(free(self.word_of(&term, span)?));
+            }
             (Output::Int(from, to), Term::Number(value)) => {
                 parts.push(free(self.whole_result(value, (*from, *to), span, what)?))
             }
@@ -218,6 +232,7 @@ impl Lowering<'_> {
                 }
                 Node::Select(_, then, other) => open.extend([then, other]),
                 Node::Const(_)
+                | Node::Word(_)
                 | Node::Input(_)
                 | Node::Index(_)
                 | Node::Result(_)
@@ -257,6 +272,7 @@ impl Lowering<'_> {
         match output {
             Output::Number(_) => Term::Number(components[0]),
             Output::Int(..) => Term::Whole(components[0]),
+            Output::U32 => Term::Word(components[0]),
             Output::Vector(..) => Term::Vector(components.to_vec()),
             Output::Bool => Term::Bool(self.is_more(components[0], 0.0, &mut HashMap::new())),
             Output::Enumeration(set) => {

@@ -229,7 +229,8 @@ impl Lowering<'_> {
                 let [then, other] = [then, other].map(|part| self.renumbered(part, table, known));
                 self.pool.select(condition, then, other)
             }
-            Node::Result(_)
+            Node::Word(_)
+            | Node::Result(_)
             | Node::Input(_)
             | Node::Index(_)
             | Node::Unary(..)
@@ -258,6 +259,7 @@ impl Lowering<'_> {
                 self.pool.cond_if(condition, then, other)
             }
             Node::Const(_)
+            | Node::Word(_)
             | Node::Result(_)
             | Node::Input(_)
             | Node::Index(_)
@@ -288,7 +290,8 @@ impl Lowering<'_> {
                 let [then, other] = [then, other].map(|part| self.level_with_index(set, part, known));
                 LevelTerm::If(condition, then, other)
             }
-            Node::Result(_)
+            Node::Word(_)
+            | Node::Result(_)
             | Node::Input(_)
             | Node::Index(_)
             | Node::Unary(..)

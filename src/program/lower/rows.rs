@@ -220,6 +220,10 @@ impl<'t> Lowering<'t> {
     /// Lowers an expression that replaces an input.
     pub(super) fn term_for_input(&mut self, input: InputId, value: &Expr, env: &Env) -> Result<Term> {
         match self.input_sets[input.index()] {
+            None if self.inputs[input.index()].domain == Domain::Word => {
+                let term = self.term(value, env, Expected::Anything)?;
+                self.word_of(&term, value.span).map(Term::Word)
+            }
             None => {
                 let number = self.numeric(value, env)?;
                 self.check_range(input, number, value.span, env)?;

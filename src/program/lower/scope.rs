@@ -8,6 +8,7 @@ use std::rc::Rc;
 use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::Domain;
 use crate::program::pool::LevelSet;
 use crate::program::{InputId, LevelTerm};
 use crate::table::expr::{Expr, ExprKind};
@@ -171,6 +172,7 @@ impl Lowering<'_> {
             return term.clone();
         }
         match self.input_sets[input.index()] {
+            None if self.inputs[input.index()].domain == Domain::Word => Term::Word(self.pool.input(input)),
             None => Term::Number(self.pool.input(input)),
             Some(SetId::BOOL) => Term::Bool(self.pool.level(input, LevelSet::one(1), 2)),
             Some(set) => self.level_of(set, LevelTerm::Input(input)),
@@ -223,7 +225,7 @@ impl Lowering<'_> {
     /// Remembers a name for generated code.
     pub(super) fn label(&mut self, term: &Term, name: &str) {
         match term {
-            Term::Number(expr) | Term::Whole(expr) => self.pool.set_label(*expr, name),
+            Term::Number(expr) | Term::Whole(expr) | Term::Word(expr) => self.pool.set_label(*expr, name),
             Term::Record(parts) => {
                 for (part, term) in parts {
                     self.label(term, &format!("{name}_{part}"));

@@ -80,7 +80,7 @@ impl<'t> Lowering<'t> {
                 kind: LevelKind::Int,
                 classes: (table.language.value >= SINCE).then(|| Classes::each(*from, *to)),
             },
-            (None, Some(table::Domain::Range(..)) | None) => {
+            (None, Some(table::Domain::Range(..) | table::Domain::U32) | None) => {
                 let known = table.levels.iter().map(|(set, _)| &set.value);
                 let known = known.chain(table.inputs.iter().map(|input| &input.name.value)).map(String::as_str);
                 let message = format!("`{}` has no level set `{name}`", table.source.name);

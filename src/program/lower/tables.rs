@@ -177,6 +177,10 @@ impl<'t> Lowering<'t> {
                 _ => Ok((Meaning::Number(*number), term)),
             },
             (Domain::Continuous { .. }, other) => Err(self.no_number(other, at)),
+            (Domain::Word, term) => {
+                let word = self.word_of(term, at)?;
+                Ok((Meaning::Number(word), Term::Word(word)))
+            }
             (Domain::Discrete(levels), Term::Bool(condition)) if levels.kind == LevelKind::Bool => {
                 let level = self.truth_as_level(*condition);
                 let level = self.memo.level(level);
@@ -210,6 +214,7 @@ impl<'t> Lowering<'t> {
                     }
                     Term::Number(_)
                     | Term::Whole(_)
+                    | Term::Word(_)
                     | Term::Vector(_)
                     | Term::Bool(_)
                     | Term::List(_)
@@ -248,7 +253,8 @@ impl<'t> Lowering<'t> {
                 let other = self.whole_as_level(set, other, at, known)?;
                 LevelTerm::If(condition, then, other)
             }
-            Node::Input(_)
+            Node::Word(_)
+            | Node::Input(_)
             | Node::Index(_)
             | Node::Result(_)
             | Node::Unary(..)

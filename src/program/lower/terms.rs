@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::lists::List;
 use super::scope::Env;
-use super::{Lowering, Result, SetId};
+use super::{Lowering, Result, SINCE, SetId};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::LevelTerm;
 use crate::program::operators::Comparison;
@@ -34,6 +34,8 @@ pub(super) enum Term {
     Number(ExprId),
     /// A whole number, which is no real one before it is made one.
     Whole(ExprId),
+    /// A word, which is neither.
+    Word(ExprId),
     Vector(Vec<ExprId>),
     Bool(CondId),
     Level(SetId, Arc<LevelTerm>),
@@ -63,7 +65,7 @@ impl Term {
     /// The expressions and conditions that it consists of; levels have none.
     pub(super) fn parts(&self, exprs: &mut Vec<ExprId>, conditions: &mut Vec<CondId>) {
         match self {
-            Term::Number(expr) | Term::Whole(expr) => exprs.push(*expr),
+            Term::Number(expr) | Term::Whole(expr) | Term::Word(expr) => exprs.push(*expr),
             Term::Vector(parts) => exprs.extend(parts),
             Term::List(list) => list.parts().iter().for_each(|part| part.parts(exprs, conditions)),
             Term::Bool(condition) => conditions.push(*condition),
@@ -156,6 +158,11 @@ impl Lowering<'_> {
                 let a = self.term(a, env, Expected::Anything)?;
                 self.map1(UnaryOp::Negate, a, span)
             }
+            ExprKind::Unary(ast::UnaryOp::BitNot, a) => {
+                self.scopes[env.scope].since(SINCE, span, "`~`")?;
+                let a = self.term(a, env, Expected::Anything)?;
+                self.map1(UnaryOp::WordNot, a, span)
+            }
             ExprKind::Binary(ast::BinaryOp::Join, a, b) => self.joined_lists([a, b], span, env, &expected),
             ExprKind::Binary(op, a, b) => self.binary(*op, a, b, span, env),
             ExprKind::In(value, levels) => self.membership(value, levels, env),
@@ -211,6 +218,7 @@ impl Lowering<'_> {
             Term::Bool(condition) => Ok(condition),
             other @ (Term::Number(_)
             | Term::Whole(_)
+            | Term::Word(_)
             | Term::Vector(_)
             | Term::Level(..)
             | Term::List(_)
@@ -223,6 +231,7 @@ impl Lowering<'_> {
         match self.term(expr, env, Expected::Anything)? {
             Term::Number(number) => Ok(number),
             other @ (Term::Whole(_)
+            | Term::Word(_)
             | Term::Vector(_)
             | Term::Bool(_)
             | Term::Level(..)
@@ -238,6 +247,7 @@ impl Lowering<'_> {
                 self.later(term, error.help("`f32(...)` gives the number that stands for it"))
             }
             Term::Whole(_) => error.help("`f32(...)` makes a number of a whole one"),
+            Term::Word(_) => error.help("`f32(...)` makes a number of a U32"),
             Term::Number(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => error,
         }
     }
@@ -246,6 +256,7 @@ impl Lowering<'_> {
         match term {
             Term::Number(_) => "a number".to_owned(),
             Term::Whole(_) => "a whole number".to_owned(),
+            Term::Word(_) => "a U32".to_owned(),
             Term::Vector(parts) => format!("a vector of {}", parts.len()),
             Term::Bool(_) => "a condition".to_owned(),
             Term::Level(set, _) => format!("one of the levels {}", self.sets[set.0].names.join(", ")),
@@ -273,7 +284,21 @@ impl Lowering<'_> {
                 let sides = if matches!(op, Op::Less | Op::LessEqual) { [a, b] } else { [b, a] };
                 Ok(Term::Bool(self.compared(comparison, sides, span, env)?))
             }
-            Op::Add | Op::Subtract | Op::Multiply | Op::Divide | Op::Remainder | Op::Join => {
+            Op::Add
+            | Op::Subtract
+            | Op::Multiply
+            | Op::Divide
+            | Op::Remainder
+            | Op::Join
+            | Op::BitAnd
+            | Op::BitOr
+            | Op::BitXor
+            | Op::ShiftLeft
+            | Op::ShiftRight => {
+                if op.is_on_bits() {
+                    let since = self.scopes[env.scope].since(SINCE, span, &format!("`{}`", op.symbol()));
+                    since.map_err(|error| error.help("logical operators are written `&&` and `||`"))?;
+                }
                 let Some(op) = BinaryOp::of_symbol(op) else {
                     return Err(type_error(span, &format!("`{}`", op.symbol()), "expected an operation on numbers"));
                 };
@@ -324,6 +349,9 @@ impl Lowering<'_> {
         let zip = |me: &mut Self, a: &[ExprId], b: &[ExprId]| -> Vec<ExprId> {
             a.iter().zip(b).map(|(a, b)| me.pool.select(condition, *a, *b)).collect()
         };
+        if let Some([a, b]) = self.words([&then, &other], false, span)? {
+            return Ok(Term::Word(self.pool.select(condition, a, b)));
+        }
         // Integers that are of one set stay levels.
         let is_one_set = matches!((&then, &other), (Term::Level(a, _), Term::Level(b, _)) if a == b);
         if !is_one_set && let Some([a, b]) = self.wholes([&then, &other], span)? {

@@ -29,7 +29,9 @@ impl Lowering<'_> {
         match term {
             Term::Whole(_) => true,
             Term::Level(set, _) => self.is_integer(*set),
-            Term::Number(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => false,
+            Term::Number(_) | Term::Word(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => {
+                false
+            }
         }
     }
 
@@ -42,6 +44,7 @@ impl Lowering<'_> {
             Term::Level(..)
             | Term::Number(_)
             | Term::Whole(_)
+            | Term::Word(_)
             | Term::Vector(_)
             | Term::Bool(_)
             | Term::List(_)
@@ -62,7 +65,7 @@ impl Lowering<'_> {
                 Some(self.level_number(*set, level, |me, level| me.sets[set.0].codes[usize::from(level)]))
             }
             Term::Number(expr) => self.pool.constant(*expr).filter(|value| value.fract() == 0.0).map(|_| *expr),
-            Term::Level(..) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => None,
+            Term::Level(..) | Term::Word(_) | Term::Vector(_) | Term::Bool(_) | Term::List(_) | Term::Record(_) => None,
         }
     }
 
@@ -82,9 +85,12 @@ impl Lowering<'_> {
             return Err(match terms[place] {
                 Term::Bool(_) => error.help("`count(...)` is the number of conditions that hold"),
                 Term::Level(..) => error.help("`index(...)` is the number of a level, counted from 0"),
-                Term::Number(_) | Term::Whole(_) | Term::Vector(_) | Term::List(_) | Term::Record(_) => {
-                    error.help("`f32(...)` makes a number of a whole one")
-                }
+                Term::Number(_)
+                | Term::Whole(_)
+                | Term::Word(_)
+                | Term::Vector(_)
+                | Term::List(_)
+                | Term::Record(_) => error.help("`f32(...)` makes a number of a whole one"),
             });
         }
         let zero = self.pool.number(0.0);
@@ -183,6 +189,9 @@ impl Lowering<'_> {
     pub(super) fn compared(&mut self, op: Comparison, [a, b]: [&Expr; 2], span: Span, env: &Env) -> Result<CondId> {
         let [left, right] = [a, b].map(|side| self.term(side, env, Expected::Anything));
         let (left, right) = (left?, right?);
+        if let Some([x, y]) = self.words([&left, &right], false, span)? {
+            return Ok(self.comparison(op, x, y));
+        }
         if let Some(condition) = self.wide_compared(op, [&left, &right], span)? {
             return Ok(condition);
         }
@@ -390,7 +399,12 @@ pub(super) fn whole_components(output: &Output<SetId>, ranges: &mut Vec<Option<(
     match output {
         Output::Int(from, to) => ranges.push(Some((*from, *to))),
         Output::Record(fields) => fields.iter().for_each(|(_, of)| whole_components(of, ranges)),
-        Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Enumeration(_) | Output::List { .. } => {
+        Output::Number(_)
+        | Output::Vector(..)
+        | Output::Bool
+        | Output::U32
+        | Output::Enumeration(_)
+        | Output::List { .. } => {
             ranges.extend((0..output.size()).map(|_| None));
         }
     }

@@ -81,6 +81,7 @@ impl<'t> Lowering<'t> {
             Term::Level(..)
             | Term::Number(_)
             | Term::Whole(_)
+            | Term::Word(_)
             | Term::Vector(_)
             | Term::Bool(_)
             | Term::List(_)

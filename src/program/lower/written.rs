@@ -3,12 +3,12 @@
 use std::collections::HashSet;
 
 use crate::diag::Spanned;
-use crate::program::Written;
+use crate::program::{ExprId, Node, Pool, Written};
 use crate::table::expr::{BinaryOp, Expr, ExprKind, SumOver};
 use crate::table::{CaseBody, Claim, FunctionBody, Image, ResultMap, Table};
 
-/// Looks at all that is written in a table of cases.
-pub(super) fn written(table: &Table) -> Written {
+/// Looks at all that is written in a table of cases, which was lowered to the terms of a pool.
+pub(super) fn written(table: &Table, pool: &Pool) -> Written {
     let (unused_names, unused_helpers) = (unused_names(table), unused_helpers(table));
     let mut written = Written { unused_names, unused_helpers, ..Written::default() };
     let mut look = |expr: &Expr| {
@@ -26,6 +26,14 @@ pub(super) fn written(table: &Table) -> Written {
     }
     table.names.iter().for_each(|named| look(&named.value));
     look(&table.default);
+    // What became a word is exact, unless the same number stands somewhere else as well.
+    let is_word = |number: f64| pool.nodes().any(|node| matches!(node, Node::Word(word) if f64::from(word) == number));
+    let is_operand = |number: f64| {
+        let is_it = |part: ExprId| pool.constant(part) == Some(number);
+        pool.nodes().any(|node| node.children().any(is_it))
+            || pool.conds().any(|condition| condition.compared().any(is_it))
+    };
+    written.inexact.retain(|(number, _)| !is_word(*number) || is_operand(*number));
     written
 }
 

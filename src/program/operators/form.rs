@@ -7,6 +7,8 @@ use crate::table::expr as ast;
 pub enum Notation {
     /// A call of a function: its name and the names of its arguments.
     Function(&'static str, &'static str),
+    /// A function whose name another operator has, or a function of the language that stands for several.
+    Shared(&'static str),
     /// A symbol before the operand.
     Prefix(ast::UnaryOp),
     /// A symbol between the operands.
@@ -17,7 +19,7 @@ impl Notation {
     /// The name of the function, or the symbol.
     pub fn name(self) -> &'static str {
         match self {
-            Notation::Function(name, _) => name,
+            Notation::Function(name, _) | Notation::Shared(name) => name,
             Notation::Prefix(op) => op.symbol(),
             Notation::Infix(op) => op.symbol(),
         }

@@ -36,6 +36,8 @@ pub enum Image {
     },
     /// The distance from the whole number below.
     Sawtooth,
+    /// A word, which never decreases or never increases as long as operands are words.
+    Words,
 }
 
 impl Image {
@@ -55,6 +57,8 @@ impl Image {
             }
             Image::Sawtooth if lo.floor() == hi.floor() => ((of(lo), of(hi)), None),
             Image::Sawtooth => ((0.0, 1.0), None),
+            Image::Words if are_words((lo, hi)) => ((of(lo).min(of(hi)), of(lo).max(of(hi))), None),
+            Image::Words => (WORDS, None),
         }
     }
 }
@@ -125,6 +129,108 @@ pub(super) fn whole_remainder(a: Bounds, b: Bounds) -> Bounded {
     let below = if are_whole(a) && are_whole(b) { 1.0 } else { 0.0 };
     let most = a.0.abs().max(a.1.abs()).min((b.0.abs().max(b.1.abs()) - below).max(0.0));
     ((if a.0 < 0.0 { -most } else { 0.0 }, if a.1 > 0.0 { most } else { 0.0 }), None)
+}
+
+/// All words.
+const WORDS: Bounds = (0.0, u32::MAX as f64);
+
+/// Returns whether bounds are words, between which nothing wraps.
+fn are_words(bounds: Bounds) -> bool {
+    bounds.0 >= 0.0 && bounds.1 <= WORDS.1 && are_whole(bounds)
+}
+
+/// The image of words under an operation that wraps, given that of numbers.
+fn wrapped(a: Bounds, b: Bounds, image: Bounds) -> Bounded {
+    (if are_words(a) && are_words(b) && are_words(image) { image } else { WORDS }, None)
+}
+
+/// The image of single words under an operation on bits, or else what `other` says of words.
+fn on_bits(a: Bounds, b: Bounds, of: fn(u32, u32) -> u32, other: impl Fn() -> Bounds) -> Bounded {
+    if !(are_words(a) && are_words(b)) {
+        return (WORDS, None);
+    }
+    let single = a.0 == a.1 && b.0 == b.1;
+    let word = f64::from(of(a.0 as u32, b.0 as u32));
+    (if single { (word, word) } else { other() }, None)
+}
+
+/// The word of ones that covers another.
+fn ones(most: f64) -> f64 {
+    f64::from(u32::MAX.checked_shr((most as u32).leading_zeros()).unwrap_or(0))
+}
+
+pub(super) fn word_sum(a: Bounds, b: Bounds) -> Bounded {
+    if a.0 == a.1 && b.0 == b.1 {
+        return on_bits(a, b, u32::wrapping_add, || WORDS);
+    }
+    wrapped(a, b, (a.0 + b.0, a.1 + b.1))
+}
+
+pub(super) fn word_difference(a: Bounds, b: Bounds) -> Bounded {
+    if a.0 == a.1 && b.0 == b.1 {
+        return on_bits(a, b, u32::wrapping_sub, || WORDS);
+    }
+    wrapped(a, b, (a.0 - b.1, a.1 - b.0))
+}
+
+pub(super) fn word_product(a: Bounds, b: Bounds) -> Bounded {
+    if a.0 == a.1 && b.0 == b.1 {
+        return on_bits(a, b, u32::wrapping_mul, || WORDS);
+    }
+    wrapped(a, b, (a.0 * b.0, a.1 * b.1))
+}
+
+/// No larger than the dividend, which it is by zero.
+pub(super) fn word_quotient(a: Bounds, b: Bounds) -> Bounded {
+    match b.0 > 0.0 {
+        true => wrapped(a, b, ((a.0 / b.1).floor(), (a.1 / b.0).floor())),
+        false => wrapped(a, b, (0.0, a.1)),
+    }
+}
+
+pub(super) fn word_remainder(a: Bounds, b: Bounds) -> Bounded {
+    match a.1 < b.0 {
+        true => wrapped(a, b, a),
+        false => on_bits(a, b, super::words::remainder, || (0.0, a.1.min((b.1 - 1.0).max(0.0)))),
+    }
+}
+
+pub(super) fn word_and(a: Bounds, b: Bounds) -> Bounded {
+    on_bits(a, b, |a, b| a & b, || (0.0, a.1.min(b.1)))
+}
+
+pub(super) fn word_or(a: Bounds, b: Bounds) -> Bounded {
+    on_bits(a, b, |a, b| a | b, || (a.0.max(b.0), ones(a.1.max(b.1))))
+}
+
+pub(super) fn word_xor(a: Bounds, b: Bounds) -> Bounded {
+    on_bits(a, b, |a, b| a ^ b, || (0.0, ones(a.1.max(b.1))))
+}
+
+/// Of more than 31 places, nothing is known here.
+pub(super) fn shift_left(a: Bounds, b: Bounds) -> Bounded {
+    if b.0 == b.1 && a.0 == a.1 {
+        return on_bits(a, b, u32::wrapping_shl, || WORDS);
+    }
+    match b.1 < 32.0 {
+        true => wrapped(a, b, (a.0 * b.0.exp2(), a.1 * b.1.exp2())),
+        false => (WORDS, None),
+    }
+}
+
+pub(super) fn shift_right(a: Bounds, b: Bounds) -> Bounded {
+    match b.1 < 32.0 {
+        true => wrapped(a, b, ((a.0 / b.1.exp2()).floor(), (a.1 / b.0.exp2()).floor())),
+        false => on_bits(a, b, u32::wrapping_shr, || (0.0, a.1)),
+    }
+}
+
+pub(super) fn word_minimum(a: Bounds, b: Bounds) -> Bounded {
+    wrapped(a, b, (a.0.min(b.0), a.1.min(b.1)))
+}
+
+pub(super) fn word_maximum(a: Bounds, b: Bounds) -> Bounded {
+    wrapped(a, b, (a.0.max(b.0), a.1.max(b.1)))
 }
 
 pub(super) fn minimum(a: Bounds, b: Bounds) -> Bounded {

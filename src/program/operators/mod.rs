@@ -13,6 +13,7 @@ mod form;
 mod images;
 mod row;
 mod table;
+mod words;
 
 use crate::table::expr as ast;
 
@@ -51,7 +52,7 @@ impl Operator {
     pub fn functions() -> impl Iterator<Item = (&'static str, Self)> {
         Self::all().filter_map(|op| match op.notation() {
             Notation::Function(name, _) => Some((name, op)),
-            Notation::Prefix(_) | Notation::Infix(_) => None,
+            Notation::Shared(_) | Notation::Prefix(_) | Notation::Infix(_) => None,
         })
     }
 
@@ -135,7 +136,11 @@ mod tests {
             assert!(names.insert(name) && !op.doc().is_empty(), "{name}");
             assert_eq!(Operator::named(name), Some(op));
         }
-        assert_eq!(Operator::all().count() - names.len(), 8, "negation and seven infix operators");
+        assert_eq!(
+            Operator::all().count() - names.len(),
+            24,
+            "two prefix and seventeen infix operators, five that share a name"
+        );
     }
 
     /// An operand: an interval, and points of it.

@@ -94,6 +94,8 @@ pub struct Unary {
     pub is_plain: bool,
     /// Has results that no `f32` can hold already for moderate operands.
     pub is_exponential: bool,
+    /// Has a word for a result.
+    pub gives_word: bool,
     /// The operator that functions with a claimed accuracy use instead, where WGSL promises too little for this one.
     pub portable: Option<UnaryOp>,
     /// Its form in generated code.
@@ -118,6 +120,7 @@ impl Unary {
             algebra: UnaryAlgebra::Opaque,
             is_plain: false,
             is_exponential: false,
+            gives_word: false,
             portable: None,
             spellings: Spellings::shared(rust),
         }
@@ -125,6 +128,18 @@ impl Unary {
 
     pub(super) const fn portable(self, portable: UnaryOp) -> Self {
         Self { portable: Some(portable), ..self }
+    }
+
+    /// The row of an operator that makes a word.
+    pub(super) const fn word(
+        notation: Notation,
+        wide: fn(f64) -> f64,
+        narrow: fn(f32) -> f32,
+        image: Image,
+        spellings: Spellings,
+    ) -> Self {
+        let row = Self::function("", "", wide, image, Spelling::Same).narrow(narrow).plain();
+        Self { notation, spellings, gives_word: true, ..row }
     }
 
     pub(super) const fn narrow(self, narrow: fn(f32) -> f32) -> Self {
@@ -173,6 +188,8 @@ pub struct Binary {
     pub is_exponential: bool,
     /// Has a whole result for whole operands.
     pub keeps_whole: bool,
+    /// Has two words for operands, and a word for a result.
+    pub is_on_words: bool,
     /// Its form in generated code.
     pub spellings: Spellings,
 }
@@ -208,8 +225,40 @@ impl Binary {
         image: fn(Bounds, Bounds) -> Bounded,
         spellings: Spellings,
     ) -> Self {
-        let (is_plain, is_exponential, keeps_whole) = (false, false, false);
-        Self { notation, doc, wide, narrow: None, image, algebra, is_plain, is_exponential, keeps_whole, spellings }
+        Self {
+            notation,
+            doc,
+            wide,
+            narrow: None,
+            image,
+            algebra,
+            is_plain: false,
+            is_exponential: false,
+            keeps_whole: false,
+            is_on_words: false,
+            spellings,
+        }
+    }
+
+    /// The row of an operation on words, which languages write as tables do unless Rust says otherwise.
+    pub(super) const fn words(
+        op: ast::BinaryOp,
+        of: (fn(f64, f64) -> f64, fn(f32, f32) -> f32),
+        image: fn(Bounds, Bounds) -> Bounded,
+        rust: Spelling,
+    ) -> Self {
+        Self::on_words(Notation::Infix(op), of, image, Spellings { rust, ..Spellings::SYMBOL })
+    }
+
+    /// The row of an operation on words: its meanings in `f64` and in `f32`, and all that it is written as.
+    pub(super) const fn on_words(
+        notation: Notation,
+        (wide, narrow): (fn(f64, f64) -> f64, fn(f32, f32) -> f32),
+        image: fn(Bounds, Bounds) -> Bounded,
+        spellings: Spellings,
+    ) -> Self {
+        let row = Self::bare(notation, "", wide, BinaryAlgebra::Opaque, image, spellings);
+        Self { is_on_words: true, ..row.narrow(narrow).plain() }
     }
 
     pub(super) const fn narrow(self, narrow: fn(f32, f32) -> f32) -> Self {

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::arithmetic::{larger, portable_sincos, sign, smaller, smoothstep, whole_quotient, whole_remainder};
 use super::images::{self, Image};
 use super::row::{Ascending, Binary, BinaryAlgebra, Operands, Ternary, TernaryAlgebra, Unary, UnaryAlgebra};
-use super::{Notation, Spelling, Spellings};
+use super::{Notation, Spelling, Spellings, words};
 use crate::table::expr as ast;
 
 /// Declares the operators of one arity: the enumeration, all of its values, and their rows.
@@ -32,7 +32,7 @@ macro_rules! operators {
 }
 
 use BinaryAlgebra as Two;
-use Image::{Decreasing, Increasing, Poles, Sawtooth, Steps, Valley, Wave};
+use Image::{Decreasing, Increasing, Poles, Sawtooth, Steps, Valley, Wave, Words};
 use Spelling::{Call, OfSincos, Own, Symbol, Text, Wide};
 use TernaryAlgebra as Three;
 use UnaryAlgebra as One;
@@ -104,6 +104,22 @@ operators! {
     Tan = Unary::function("tan", "tangent of an angle in radians", libm::tan,
         Poles { pole: FRAC_PI_2, what: "can be the tangent of a right angle" }, Wide("tan"));
     Tanh = Unary::function("tanh", "hyperbolic tangent", libm::tanh, Increasing, Wide("tanh"));
+    // Of words, which `f64` has as numbers, and `f32` carries as bits.
+    WordNot = Unary::word(Notation::Prefix(ast::UnaryOp::BitNot), |a| words::wide(!words::of(a)),
+        |a| f32::from_bits(!a.to_bits()), Words, Spellings { rust: Text("(!{a})"), ..Spellings::SYMBOL });
+    // Of a number from 0 to the largest one below 2^32, the whole part: nothing else is made a word.
+    WordOfNumber = Unary::word(Notation::Shared("u32"), |a| words::wide(words::of_number(a)),
+        |a| f32::from_bits(words::of_number(f64::from(a))), Steps,
+        Spellings { wgsl: Call("u32"), glsl: Call("uint"), rust: Text("({a} as u32)") });
+    // Of a whole number, which code has as an integer; a negative one wraps.
+    WordOfWhole = Unary::word(Notation::Shared("u32"), |a| words::wide(words::of(a)),
+        |a| f32::from_bits(words::of(f64::from(a))), Words,
+        Spellings { wgsl: Call("u32"), glsl: Call("uint"), rust: Text("({a} as u32)") });
+    NumberOfWord = Unary {
+        notation: Notation::Shared("f32"),
+        spellings: Spellings { wgsl: Call("f32"), glsl: Call("float"), rust: Text("({a} as f32)") },
+        ..Unary::function("", "", |a| a, Increasing, Symbol).narrow(|a| a.to_bits() as f32).plain()
+    };
     Trunc = Unary::function("trunc", "nearest integer towards 0", f64::trunc, Steps, Call("f32::trunc")).plain();
 }
 
@@ -120,6 +136,26 @@ operators! {
         .plain().whole();
     WholeRemainder = Binary::symbol(ast::BinaryOp::Remainder, whole_remainder, Two::Opaque, images::whole_remainder)
         .plain().whole();
+    // Of words. No table divides one by zero, or shifts one by more than 31 places.
+    WordAdd = Binary::words(ast::BinaryOp::Add, words::both!(u32::wrapping_add), images::word_sum,
+        Text("u32::wrapping_add({a:bare}, {b:bare})"));
+    WordSubtract = Binary::words(ast::BinaryOp::Subtract, words::both!(u32::wrapping_sub), images::word_difference,
+        Text("u32::wrapping_sub({a:bare}, {b:bare})"));
+    WordMultiply = Binary::words(ast::BinaryOp::Multiply, words::both!(u32::wrapping_mul), images::word_product,
+        Text("u32::wrapping_mul({a:bare}, {b:bare})"));
+    WordQuotient = Binary::words(ast::BinaryOp::Divide, words::both!(words::quotient), images::word_quotient, Symbol);
+    WordRemainder = Binary::words(ast::BinaryOp::Remainder, words::both!(words::remainder), images::word_remainder,
+        Symbol);
+    WordAnd = Binary::words(ast::BinaryOp::BitAnd, words::both!(|a, b| a & b), images::word_and, Symbol);
+    WordOr = Binary::words(ast::BinaryOp::BitOr, words::both!(|a, b| a | b), images::word_or, Symbol);
+    WordXor = Binary::words(ast::BinaryOp::BitXor, words::both!(|a, b| a ^ b), images::word_xor, Symbol);
+    ShiftLeft = Binary::words(ast::BinaryOp::ShiftLeft, words::both!(u32::wrapping_shl), images::shift_left, Symbol);
+    ShiftRight = Binary::words(ast::BinaryOp::ShiftRight, words::both!(u32::wrapping_shr), images::shift_right,
+        Symbol);
+    WordMax = Binary::on_words(Notation::Shared("max"), words::both!(u32::max), images::word_maximum,
+        Spellings::shared(Call("u32::max")));
+    WordMin = Binary::on_words(Notation::Shared("min"), words::both!(u32::min), images::word_minimum,
+        Spellings::shared(Call("u32::min")));
     Atan2 = Binary::function("atan2", "a, b", "angle of the point (b, a)", libm::atan2, Two::Opaque, images::angle, Wide("atan2"))
         .in_glsl(Call("atan"));
     Max = Binary::function("max", "a, b", "the larger", larger, Two::Maximum, images::maximum, Call("f32::max"))

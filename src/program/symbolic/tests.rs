@@ -33,7 +33,7 @@ impl Machine<'_> {
             Node::Unary(op, a) => op.apply(of(a)),
             Node::Binary(op, a, b) => op.apply(of(a), of(b)),
             Node::Ternary(op, a, b, c) => op.apply(of(a), of(b), of(c)),
-            Node::Index(_) | Node::Result(_) | Node::Select(..) => panic!("not resolved"),
+            Node::Word(_) | Node::Index(_) | Node::Result(_) | Node::Select(..) => panic!("not resolved"),
         }
     }
 }

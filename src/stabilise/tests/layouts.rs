@@ -195,7 +195,7 @@ fn close(table: &str, other: &str, what: &str) {
             let point: Vec<Option<Value>> = (program.inputs.iter())
                 .map(|input| match input.domain {
                     Domain::Continuous { lo, hi, .. } => Some(Value::Number(lo + (hi - lo) * random.unit())),
-                    Domain::Discrete(_) => None,
+                    Domain::Discrete(_) | Domain::Word => None,
                 })
                 .collect();
             let value = |program: &Program| {

@@ -85,6 +85,7 @@ fn quotients(pool: &Pool, expr: ExprId, factor: f64, divisor: Option<ExprId>, ou
             (None, Some(_)) => out.push(Quotient { factor, term: expr, divisor }),
         },
         Node::Const(_)
+        | Node::Word(_)
         | Node::Input(_)
         | Node::Index(_)
         | Node::Result(_)

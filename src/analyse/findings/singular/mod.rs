@@ -76,7 +76,7 @@ pub fn singularities(program: &Program) -> Vec<Singularity> {
             let Some(point) = inside.take(points::BASES).find(|point| fails_at(program, divisor, point)) else {
                 continue;
             };
-            let result = Trace::<f32>::run(program, &point).result.iter().map(|v| f64::from(*v)).collect();
+            let result = program.output.numbers(&Trace::<f32>::run(program, &point).result);
             let limit = match judge.limit(&given(&point)) {
                 Ok(limit) => Some(limit),
                 Err(Unknown::NoLimit) => None,
@@ -281,13 +281,13 @@ pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss>
             let beside = f64::from(beside as f32);
             let outside = match program.inputs[input.index()].domain {
                 crate::program::Domain::Continuous { lo, hi, .. } => !(lo..=hi).contains(&beside),
-                crate::program::Domain::Discrete(_) => true,
+                crate::program::Domain::Discrete(_) | crate::program::Domain::Word => true,
             };
             if outside || beside == value {
                 continue;
             }
             point[input.index()] = Value::Number(beside);
-            let got: Vec<f64> = Trace::<f32>::run(program, &point).result.iter().map(|v| f64::from(*v)).collect();
+            let got = program.output.numbers(&Trace::<f32>::run(program, &point).result);
             let Ok(exact) = judge.value(&given(&point)) else { continue };
             let lost = got.iter().zip(&exact).any(|(got, exact)| {
                 got.is_finite() && exact.is_finite() && exact.abs() > 1e-6 && (got - exact).abs() > LOST * exact.abs()
@@ -306,9 +306,13 @@ fn overflows(program: &Program) -> Vec<Diagnostic> {
     let risky = |expr: &ExprId| match program.pool.node(*expr) {
         Node::Unary(op, _) => op.row().is_exponential,
         Node::Binary(op, ..) => op.row().is_exponential,
-        Node::Const(_) | Node::Input(_) | Node::Index(_) | Node::Result(_) | Node::Ternary(..) | Node::Select(..) => {
-            false
-        }
+        Node::Const(_)
+        | Node::Word(_)
+        | Node::Input(_)
+        | Node::Index(_)
+        | Node::Result(_)
+        | Node::Ternary(..)
+        | Node::Select(..) => false,
     };
     if !expressions(program).iter().any(risky) {
         return Vec::new();
@@ -317,16 +321,18 @@ fn overflows(program: &Program) -> Vec<Diagnostic> {
     let mut found: BTreeMap<ExprId, Diagnostic> = BTreeMap::new();
     for point in points::corners(program).into_iter().chain(points::inside(program, points::BASES)) {
         let trace = Trace::<f32>::run(program, &point);
-        if trace.result.iter().all(|v| v.is_finite()) {
+        let got = program.output.numbers(&trace.result);
+        if got.iter().all(|v| v.is_finite()) {
             continue;
         }
-        let first = trace.order.iter().find(|expr| trace.value(**expr).is_some_and(|v| !v.is_finite()));
+        let is_number = |expr: &&ExprId| !program.pool.is_word(**expr);
+        let fails = |expr: &&ExprId| trace.value(**expr).is_some_and(|v| !v.is_finite());
+        let first = trace.order.iter().filter(is_number).find(fails);
         let Some(first) = first.filter(|expr| risky(expr) && !found.contains_key(expr)) else { continue };
         let Ok(exact) = judge.limit(&given(&point)) else { continue };
         if exact.iter().any(|v| (*v as f32).is_infinite()) {
             continue;
         }
-        let got: Vec<f64> = trace.result.iter().map(|v| f64::from(*v)).collect();
         let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);
         let message = format!("`{}` overflows on the way to a value that is finite", called(program));
         let mut diagnostic = Diagnostic::warning(codes::OVERFLOW, message);

@@ -35,6 +35,15 @@ pub(super) fn drawn(program: &Program, count: usize) -> impl Iterator<Item = Vec
             let part = (irrational * (i + 1) as f64 + 0.31 * place as f64).fract();
             match &input.domain {
                 Domain::Discrete(levels) => Value::Level((part * levels.count() as f64) as u8),
+                // By size: small words are as usual as large ones.
+                Domain::Word => {
+                    let (lo, hi) = input.domain.span();
+                    Value::Number(input.domain.point(if i % 2 == 0 {
+                        lo + (hi - lo) * part
+                    } else {
+                        by_size(lo, hi, part)
+                    }))
+                }
                 Domain::Continuous { lo, hi, .. } if i % 4 == 3 => Value::Number(by_size(*lo, *hi, part)),
                 Domain::Continuous { lo, hi, .. } => Value::Number(number(*lo, *hi, part)),
             }
@@ -72,6 +81,7 @@ pub(super) fn corners(program: &Program) -> Vec<Vec<Value>> {
         .iter()
         .map(|input| match &input.domain {
             Domain::Discrete(levels) => (0..levels.count() as u8).map(Value::Level).collect(),
+            Domain::Word => [0.0, f64::from(u32::MAX), f64::from(1_u32 << 31)].map(Value::Number).to_vec(),
             Domain::Continuous { lo, hi, .. } => [*lo, *hi, 0.5 * (lo + hi)]
                 .into_iter()
                 .map(|v| Value::Number(f64::from(v as f32).clamp(*lo, *hi)))

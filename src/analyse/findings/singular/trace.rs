@@ -1,7 +1,7 @@
 //! One evaluation, with every intermediate value kept.
 
 use crate::diag::Span;
-use crate::program::{Cond, CondId, ExprId, InputId, Node, Program, Real, Value};
+use crate::program::{Cond, CondId, Domain, ExprId, InputId, Node, Program, Real, Value};
 
 /// The terms that an evaluation came across, with their values.
 #[derive(Debug)]
@@ -83,8 +83,9 @@ impl<'p, T: Real> Trace<'p, T> {
                 Value::Number(_) => false,
             },
             Cond::Compare(op, a, b) => {
+                let words = program.pool.is_word(*a);
                 let (a, b) = (self.number(*a), self.number(*b));
-                op.holds(a, b)
+                op.holds_of(words, a, b)
             }
             Cond::Not(a) => !self.holds(*a),
             Cond::And(parts) => parts.iter().all(|part| self.holds(*part)),
@@ -101,6 +102,9 @@ impl<'p, T: Real> Trace<'p, T> {
 
     fn input(&self, input: InputId) -> T {
         match self.point[input.index()] {
+            Value::Number(word) if self.program.inputs[input.index()].domain == Domain::Word => {
+                T::from_word(word as u32)
+            }
             Value::Number(number) => T::from_f64(number),
             Value::Level(level) => T::from_f64(f64::from(level)),
         }
@@ -112,6 +116,7 @@ impl<'p, T: Real> Trace<'p, T> {
         }
         let value = match self.program.pool.node(expr) {
             Node::Const(number) => T::from_f64(number.get()),
+            Node::Word(word) => T::from_word(word),
             Node::Input(input) | Node::Index(input) => self.input(input),
             // Occurs in the result map of a symmetry only.
             Node::Result(_) => T::from_f64(f64::NAN),

@@ -51,7 +51,8 @@ fn collect(program: &Program, normaliser: &mut Normaliser, expr: ExprId, all: &m
             collect(program, normaliser, a, all);
             collect(program, normaliser, b, all);
         }
-        Node::Input(_)
+        Node::Word(_)
+        | Node::Input(_)
         | Node::Index(_)
         | Node::Result(_)
         | Node::Unary(..)

@@ -8,7 +8,6 @@
 use std::collections::BTreeMap;
 
 use super::{Question, Space};
-use crate::program::Domain;
 use crate::program::normal::Term;
 use crate::program::rational::Rational;
 use crate::program::region::Sign;
@@ -97,9 +96,7 @@ impl Narrowed {
 fn domain(space: &Space<'_>, form: usize) -> Interval {
     let mut terms = space.forms[form].terms.keys();
     let (Some(Term::Input(input)), None) = (terms.next(), terms.next()) else { return Interval::default() };
-    let Domain::Continuous { lo, hi, .. } = space.program.inputs[input.index()].domain else {
-        return Interval::default();
-    };
+    let Some((lo, hi)) = space.program.inputs[input.index()].domain.range() else { return Interval::default() };
     let end = |at: f64| Some(End { at: Rational::exact(at)?, open: false, sign: None });
     Interval { lo: end(lo), hi: end(hi) }
 }

@@ -181,6 +181,7 @@ impl Space<'_> {
         (0..MAX_TRIES).map(move |_| {
             let mut number = |input: &Input| match &input.domain {
                 Domain::Continuous { lo, hi, .. } => Some(random.unit().mul_add(hi - lo, *lo)),
+                Domain::Word => Some(input.domain.point(random.unit() * f64::from(u32::MAX))),
                 Domain::Discrete(_) => None,
             };
             self.program.inputs.iter().map(&mut number).collect()
@@ -210,7 +211,10 @@ impl Space<'_> {
     /// An input that reaches a set with these numbers, if one does.
     pub(in crate::analyse) fn with_numbers(&self, set: Set, numbers: &[f64]) -> Option<Witness> {
         let levels = self.reach(set, &Boxed::at(numbers))?;
-        Some(Witness { levels, numbers: numbers.iter().map(|number| Some(*number)).collect(), certain: true })
+        let domains = self.program.inputs.iter().map(|input| &input.domain);
+        let certain = domains.clone().zip(numbers).all(|(domain, number)| domain.point(*number) == *number);
+        let numbers = domains.zip(numbers).map(|(domain, number)| Some(domain.point(*number))).collect();
+        Some(Witness { levels, numbers, certain })
     }
 
     /// Returns whether numbers of a box may reach a set.
@@ -297,11 +301,11 @@ impl Space<'_> {
     /// A number for every continuous input: that of the point, or one in the middle of nowhere.
     pub(super) fn numbers(&self, point: &BTreeMap<InputId, Rational>) -> Vec<Option<f64>> {
         let number = |(index, input): (usize, &Input)| {
-            let Domain::Continuous { lo, hi, .. } = &input.domain else { return None };
+            let (lo, hi) = input.domain.range()?;
             let known = point.get(&InputId::new(index)).copied();
-            let free = || region::between(Rational::exact(*lo)?, Rational::exact(*hi)?, index);
+            let free = || region::between(Rational::exact(lo)?, Rational::exact(hi)?, index);
             let chosen = known.or_else(free).unwrap_or(Rational::ZERO);
-            Some(chosen.to_f64())
+            Some(input.domain.point(chosen.to_f64()))
         };
         self.program.inputs.iter().enumerate().map(number).collect()
     }

@@ -4,8 +4,8 @@ use super::Space;
 use crate::analyse::sets::Set;
 use crate::analyse::values::point::Point;
 use crate::points::random::Random;
+use crate::program::InputId;
 use crate::program::region;
-use crate::program::{Domain, InputId};
 
 impl Space<'_> {
     /// Some input that reaches a set, if one does.
@@ -27,8 +27,9 @@ impl Space<'_> {
         let point = region::point(program, self.signed(&signs)).unwrap_or_default();
         let mut numbers: Vec<f64> = self.numbers(&point).into_iter().map(Option::unwrap_or_default).collect();
         for (id, input) in program.input_ids() {
-            if let (Domain::Continuous { lo, hi, .. }, false) = (&input.domain, point.contains_key(&id)) {
-                numbers[id.index()] = lo + (hi - lo) * (random.below(255) as f64 + 0.5) / 256.0;
+            if let (Some((lo, hi)), false) = (input.domain.range(), point.contains_key(&id)) {
+                let between = lo + (hi - lo) * (random.below(255) as f64 + 0.5) / 256.0;
+                numbers[id.index()] = input.domain.point(between);
             }
         }
         Some(Point { levels, numbers })
