@@ -2,6 +2,7 @@
 
 use super::InputId;
 use super::classes::Classes;
+use super::pool::Pool;
 use crate::diag::Span;
 
 /// Most levels of one discrete input.
@@ -83,6 +84,14 @@ impl Domain {
             Domain::Discrete(levels) => (0.0, (levels.count() - 1) as f64),
             Domain::Continuous { lo, hi, .. } => (*lo, *hi),
             Domain::Word => (0.0, f64::from(u32::MAX)),
+        }
+    }
+
+    /// Tells a pool what an input of this domain can be, before it is mentioned.
+    pub(super) fn declare(&self, input: InputId, pool: &mut Pool) {
+        pool.declare(input, self.span());
+        if *self == Domain::Word {
+            pool.declare_word(input);
         }
     }
 

@@ -147,7 +147,7 @@ impl Program {
                 }
                 None => {
                     let new = InputId::new(inputs.len());
-                    pool.declare_input(new, &input.domain);
+                    input.domain.declare(new, &mut pool);
                     kept[id.index()] = Some(new);
                     inputs.push(input.clone());
                 }

@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 
 use super::operators::{ANY, BinaryOp, Bounded, Bounds, Comparison, TernaryAlgebra, TernaryOp, UnaryAlgebra, UnaryOp};
-use super::{Domain, InputId, Real};
+use super::{InputId, Real};
 
 /// An expression in a [`Pool`].
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -492,12 +492,9 @@ impl Pool {
         if self.words.contains(input) { self.constant_word(value as u32) } else { self.number(value) }
     }
 
-    /// Says what an input can be, before it is mentioned.
-    pub(crate) fn declare_input(&mut self, input: InputId, domain: &Domain) {
-        if *domain == Domain::Word {
-            self.words = self.words.or(InputSet::one(input));
-        }
-        self.declare(input, domain.span());
+    /// Says that an input is a word, before it is mentioned.
+    pub(crate) fn declare_word(&mut self, input: InputId) {
+        self.words = self.words.or(InputSet::one(input));
     }
 
     /// Says between which numbers an input lies, before it is mentioned.

@@ -45,7 +45,7 @@ impl<'t> Lowering<'t> {
             }
             if let Some(checked) = keep(self.input(input), errors) {
                 let id = InputId::new(self.inputs.len());
-                self.pool.declare_input(id, &checked.domain);
+                checked.domain.declare(id, &mut self.pool);
                 self.input_index.insert(&input.name.value, id);
                 self.inputs.push(checked);
             }

@@ -227,7 +227,7 @@ impl<'t> Lowering<'t> {
         let input = Input { name: call.name(), ident, call: Some(call), ..common.clone() };
         let (set, id) = (*set, InputId::new(self.inputs.len()));
         if set.is_none() {
-            self.pool.declare_input(id, &input.domain);
+            input.domain.declare(id, &mut self.pool);
         }
         self.input_sets.push(set);
         self.inputs.push(input);

@@ -58,6 +58,36 @@ pub(super) use both;
 mod tests {
     use crate::program::{BinaryOp, Real, UnaryOp};
 
+    /// The image of an interval of words has the result for every word of it.
+    #[test]
+    fn images_contain_the_results() {
+        let ends = [0, 1, 2, 7, 8, 15, 16, 31, 32, 1000, 0xffff, 0x0001_0000, 0x7fff_ffff, 0x8000_0000, u32::MAX];
+        let all = ends.iter().flat_map(|lo| ends.iter().map(move |hi| (*lo, *hi))).filter(|(lo, hi)| lo <= hi);
+        let all: Vec<(u32, u32)> = all.collect();
+        let inside = |(lo, hi): (u32, u32)| [lo, lo + (hi - lo) / 3, hi - (hi - lo) / 2, hi];
+        let bounds = |(lo, hi): (u32, u32)| (f64::from(lo), f64::from(hi));
+        for op in BinaryOp::ALL.iter().copied().filter(|op| op.row().is_on_words) {
+            for (x, y) in all.iter().flat_map(|x| all.iter().map(move |y| (*x, *y))) {
+                let ((lo, hi), fails) = op.image(bounds(x), bounds(y));
+                assert_eq!(fails, None);
+                for (a, b) in inside(x).into_iter().flat_map(|a| inside(y).map(|b| (a, b))) {
+                    let value = op.apply(f64::from(a), f64::from(b));
+                    assert!(
+                        (lo..=hi).contains(&value),
+                        "{op:?} of {a} in {x:?}, {b} in {y:?}: {value}, not {lo} to {hi}"
+                    );
+                }
+                if x.0 == x.1 && y.0 == y.1 {
+                    assert_eq!(lo, hi, "{op:?} of {x:?} and {y:?}");
+                }
+            }
+        }
+        for x in all {
+            let (lo, hi) = UnaryOp::WordNot.image(bounds(x)).0;
+            assert!(inside(x).iter().all(|a| (lo..=hi).contains(&f64::from(!a))), "{x:?}");
+        }
+    }
+
     /// Words in `f64`, as numbers, and in `f32`, as bits, are the same words, those that are no numbers in `f32` among them.
     #[test]
     fn both_types_carry_the_same_words() {
