@@ -1,7 +1,7 @@
 //! Integers: arithmetic as 64-bit integers have it, classes of any range, and the code of both.
 
 use umbrage::diag::Source;
-use umbrage::emit::{rust, wgsl};
+use umbrage::emit::{Target, emit, rust, wgsl};
 use umbrage::eval::{Batch, Columns, Interpreter, IntervalInterpreter};
 use umbrage::plan::{Plan, Shape};
 use umbrage::program::{Program, Real, Value};
@@ -151,6 +151,22 @@ fn all_integers_are_of_the_class_that_they_are_tested_as() {
         let proved = Plan::proved(&program, shape).unwrap_or_else(|e| panic!("{e}"));
         assert!(wgsl(&proved).contains("fn slab_k_level(integer: i32) -> u32"));
     }
+}
+
+/// The least integer is no literal with a sign: its magnitude is no integer.
+#[test]
+fn the_least_integer_is_valid_in_every_language() {
+    let program = program(
+        r#"Table(language: 2, name: "ends", hit_policy: First, inputs: {"k": Int()}, output: Number(),
+            cases: [Case(id: 1, when: "k == -2147483648", value: 1), Case(id: 2, when: "k > 2147483646", value: 2)],
+            default: 0)"#,
+    );
+    let proved = Plan::proved(&program, Shape::Tree).unwrap_or_else(|e| panic!("{e}"));
+    for target in Target::ALL {
+        let emitted = emit(&proved, target);
+        assert!(emitted.is_ok(), "{}: {}", target.name(), emitted.err().map_or(String::new(), |e| e.to_string()));
+    }
+    assert!(wgsl(&proved).contains("-2147483647i - 1i") && !wgsl(&proved).contains("-2147483648i"));
 }
 
 /// A number for each of 64 integers, in two guards.

@@ -192,8 +192,15 @@ pub(super) trait Dialect {
     fn word(&self, value: u32) -> String {
         self.uint(value)
     }
-    /// A whole number with a sign.
+    /// A whole number with a sign. The least one is no literal in all languages: its magnitude is no `int`.
     fn int(&self, value: i32) -> String {
+        match value {
+            i32::MIN => format!("({} - {})", self.plain_int(i32::MIN + 1), self.plain_int(1)),
+            _ => self.plain_int(value),
+        }
+    }
+    /// A whole number with a sign, whose magnitude is one, too.
+    fn plain_int(&self, value: i32) -> String {
         value.to_string()
     }
     /// One of two values.

@@ -84,7 +84,7 @@ impl Dialect for Wgsl {
         "default: {}"
     }
 
-    fn int(&self, value: i32) -> String {
+    fn plain_int(&self, value: i32) -> String {
         format!("{value}i")
     }
 
