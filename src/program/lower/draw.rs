@@ -90,7 +90,8 @@ impl Lowering<'_> {
     /// An input that is itself drawn in a certain way.
     fn hinted(&self, name: &Spanned<String>, what: &str, suits: fn(&written::Draw) -> bool) -> Result<InputId> {
         let input = self.drawn(name)?;
-        match self.table.draw.iter().any(|(other, draw)| other.value == name.value && suits(draw)) {
+        match self.table.draw.iter().any(|(other, draw)| self.input_or_call(&other.value) == Some(input) && suits(draw))
+        {
             true => Ok(input),
             false => {
                 let message = format!("`{}` is not drawn as {what}", name.value);

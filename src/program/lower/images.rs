@@ -45,7 +45,9 @@ impl<'t> Lowering<'t> {
             |at: Span| Diagnostic::error(codes::SYMMETRY, "only named levels can be renamed").at(at, "has none");
         let origin = match from {
             None => input,
-            Some(from) => self.input_named(&from.value).ok_or_else(|| self.unknown_input(from, "unknown input"))?,
+            Some(from) => {
+                self.input_written(from)?.ok_or_else(|| self.unknown_input(from, "only inputs are mapped"))?
+            }
         };
         let to_set = self.input_sets[input.index()].ok_or_else(|| no_levels(name.span))?;
         if self.is_wide(to_set) {
