@@ -51,16 +51,18 @@ fn asked_for(program: &Program, witness: &Witness, relevant: InputSet) -> InputS
         Domain::Continuous { .. } | Domain::Word => Some(Value::Number(numbers[id.index()])),
     };
     let point: Vec<Option<Value>> = program.input_ids().map(value).collect();
+    let mut interpreter = Interpreter::<f64>::new(program);
+    let mut way = |point: &[Option<Value>]| interpreter.evaluate(point).map(|o| (o.row, o.line, o.fetched)).ok();
+    let here = way(&point);
+    let fetched = here.map_or(InputSet::default(), |(_, _, fetched)| fetched);
+    // What is fetched is given, and has no default any more.
+    let given = relevant.or(fetched);
     let plain = |(id, input): (InputId, &Input)| match input.domain {
-        Domain::Continuous { .. } | Domain::Word if !relevant.contains(id) => input.default.or(point[id.index()]),
+        Domain::Continuous { .. } | Domain::Word if !given.contains(id) => input.default.or(point[id.index()]),
         Domain::Continuous { .. } | Domain::Word | Domain::Discrete(_) => point[id.index()],
     };
     let plain: Vec<Option<Value>> = program.input_ids().map(plain).collect();
-    let mut interpreter = Interpreter::<f64>::new(program);
-    let mut way = |point: &[Option<Value>]| interpreter.evaluate(point).map(|o| (o.row, o.line, o.fetched)).ok();
-    let (here, there) = (way(&point), way(&plain));
-    let fetched = here.map_or(InputSet::default(), |(_, _, fetched)| fetched);
-    if here == there || !witness.certain {
+    if here == way(&plain) || !witness.certain {
         return fetched;
     }
     let numbers = program.input_ids().filter(|(id, input)| input.fetched.is_none() && program.levels(*id).is_none());
