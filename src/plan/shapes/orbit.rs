@@ -68,7 +68,7 @@ fn plan<'p>(setting: &Setting<'p, '_>) -> Result<Plan<'p>> {
     let way = |state: &usize| (*state, representative(&mut machine, setting, &symmetries, &images, *state));
     let ways: HashMap<usize, Way> = setting.states.iter().map(way).collect();
     if ways.values().all(|way| way.word == 0) {
-        return Err("the table has none of its symmetries in any state".to_owned());
+        return Err("none of its symmetries turns a state into another one where the table has it".to_owned());
     }
     let mut builder = Builder::new(program);
     let needs = if program.fetched.is_empty() { Vec::new() } else { gather::needs(&mut builder, setting)? };
