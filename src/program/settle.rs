@@ -6,7 +6,7 @@
 //! and multiplies as it must gets the same bits; a proof may speak of either, and its words hold of both.
 //! A shader's square root or sine may be off in the last place: such operations are left to it.
 
-use super::operators::{BinaryAlgebra, Image, TernaryAlgebra, UnaryAlgebra};
+use super::operators::BinaryAlgebra;
 use super::{BinaryOp, ExprId, Node, Pool, Real, TernaryOp, UnaryOp};
 
 /// Products below this may have lost digits, so that their error cannot be computed.
@@ -63,13 +63,7 @@ impl Pool {
 
 /// The result of an operation on one number, if it is exact.
 fn exact_unary(op: UnaryOp, a: f64) -> Option<f64> {
-    let row = op.row();
-    let exact = match row.algebra {
-        UnaryAlgebra::Negate | UnaryAlgebra::Absolute | UnaryAlgebra::Saturate => true,
-        // Steps are whole numbers.
-        UnaryAlgebra::Opaque => row.image == Image::Steps,
-    };
-    exact.then(|| op.apply(a))
+    op.is_exact().then(|| op.apply(a))
 }
 
 /// The result of an operation on two numbers, if it is exact.
@@ -80,8 +74,7 @@ fn exact_binary(op: BinaryOp, a: f64, b: f64) -> Option<f64> {
         BinaryAlgebra::Difference => is_sum(a, -b, value),
         BinaryAlgebra::Product => is_product(a, b, value),
         BinaryAlgebra::Quotient => b != 0.0 && is_product(value, b, a),
-        BinaryAlgebra::Minimum | BinaryAlgebra::Maximum => true,
-        BinaryAlgebra::Opaque => matches!(op, BinaryOp::Step | BinaryOp::WholeQuotient | BinaryOp::WholeRemainder),
+        BinaryAlgebra::Minimum | BinaryAlgebra::Maximum | BinaryAlgebra::Opaque => op.is_exact(),
     };
     exact.then_some(value)
 }
@@ -89,10 +82,7 @@ fn exact_binary(op: BinaryOp, a: f64, b: f64) -> Option<f64> {
 /// The result of an operation on three numbers, if it is exact. A product with a sum may be rounded
 /// once or twice, and how numbers are mixed is left to a shader, too.
 fn exact_ternary(op: TernaryOp, a: f64, b: f64, c: f64) -> Option<f64> {
-    match op.row().algebra {
-        TernaryAlgebra::Clamp => Some(op.apply(a, b, c)),
-        TernaryAlgebra::ProductAndSum | TernaryAlgebra::Mix | TernaryAlgebra::Opaque => None,
-    }
+    op.is_exact().then(|| op.apply(a, b, c))
 }
 
 /// Returns whether a rounded sum is the sum: what was lost of either operand is nothing.

@@ -119,16 +119,15 @@ impl<'p> Rounding<'p> {
             return *known;
         }
         let node = self.pool.node(expr);
-        // These pass one of their operands on, or the whole number beside it.
         let passes = match node {
             Node::Const(number) => f64::from(number.get() as f32) == number.get(),
             Node::Word(_) | Node::Input(_) | Node::Index(_) => true,
             Node::Result(_) => false,
             Node::Unary(op, _) if op.row().gives_word => true,
-            Node::Unary(op, _) => op.row().algebra != UnaryAlgebra::Opaque || op.row().image == Image::Steps,
+            Node::Unary(op, _) => op.is_exact(),
             Node::Binary(op, ..) if op.row().is_on_words => true,
-            Node::Binary(op, ..) => matches!(op.row().algebra, BinaryAlgebra::Minimum | BinaryAlgebra::Maximum),
-            Node::Ternary(op, ..) => op.row().algebra == TernaryAlgebra::Clamp,
+            Node::Binary(op, ..) => op.is_exact(),
+            Node::Ternary(op, ..) => op.is_exact(),
             Node::Select(condition, ..) => !self.decides(condition),
         };
         let faithful = (passes && node.children().all(|part| self.is_faithful(part))) || self.grid(expr).is_some();

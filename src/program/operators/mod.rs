@@ -81,6 +81,16 @@ impl Operator {
 }
 
 impl UnaryOp {
+    /// Returns whether the result for a number that `f32` has is one again, so that nothing is rounded.
+    pub(crate) fn is_exact(self) -> bool {
+        let row = self.row();
+        match row.algebra {
+            UnaryAlgebra::Negate | UnaryAlgebra::Absolute | UnaryAlgebra::Saturate => true,
+            // Steps are whole numbers.
+            UnaryAlgebra::Opaque => row.image == Image::Steps,
+        }
+    }
+
     /// The image of an interval.
     pub fn image(self, (lo, hi): Bounds) -> Bounded {
         // What failed inside has been reported already.
@@ -96,6 +106,15 @@ impl UnaryOp {
 }
 
 impl BinaryOp {
+    /// Returns whether the result for numbers that `f32` has is one again, so that nothing is rounded.
+    pub(crate) fn is_exact(self) -> bool {
+        match self.row().algebra {
+            BinaryAlgebra::Minimum | BinaryAlgebra::Maximum => true,
+            BinaryAlgebra::Sum | BinaryAlgebra::Difference | BinaryAlgebra::Product | BinaryAlgebra::Quotient => false,
+            BinaryAlgebra::Opaque => matches!(self, Self::Step | Self::WholeQuotient | Self::WholeRemainder),
+        }
+    }
+
     /// The image of two intervals.
     pub fn image(self, a: Bounds, b: Bounds) -> Bounded {
         // What failed inside has been reported already.
@@ -109,6 +128,11 @@ impl BinaryOp {
 }
 
 impl TernaryOp {
+    /// Returns whether the result for numbers that `f32` has is one again, so that nothing is rounded.
+    pub(crate) fn is_exact(self) -> bool {
+        self.row().algebra == TernaryAlgebra::Clamp
+    }
+
     /// The image of three intervals.
     pub fn image(self, a: Bounds, b: Bounds, c: Bounds) -> Bounded {
         (self.row().image)(a, b, c)
