@@ -32,6 +32,8 @@ pub struct Interpreter<'p, T> {
     numbers: Vec<T>,
     fetched: InputSet,
     point: Vec<Option<Value>>,
+    /// The result that the result map of a symmetry is about, while one is computed.
+    mapped: Vec<T>,
     /// The results of operations at this point, so that what is shared is computed
     /// once; none for programs that are small when written out.
     known: Vec<Option<T>>,
@@ -50,6 +52,7 @@ impl<'p, T: Real> Interpreter<'p, T> {
             numbers: vec![T::from_f64(0.0); count],
             fetched: InputSet::default(),
             point: Vec::with_capacity(count),
+            mapped: Vec::new(),
             known: match program.pool.largest() > SMALL {
                 true => vec![None; program.pool.len()],
                 false => Vec::new(),
@@ -127,6 +130,17 @@ impl<'p, T: Real> Interpreter<'p, T> {
         self.decide(condition)
     }
 
+    /// A result as the result map of a symmetry has it; the map mentions nothing else.
+    pub fn mapped(&mut self, map: &[ExprId], result: &[T]) -> Vec<T> {
+        self.known.fill(None);
+        self.mapped = result.to_vec();
+        let none = T::from_f64(f64::NAN);
+        let mapped = map.iter().map(|component| self.number(*component).unwrap_or(none)).collect();
+        self.mapped.clear();
+        self.known.fill(None);
+        mapped
+    }
+
     /// The value of an expression at the current point.
     ///
     /// # Errors
@@ -146,8 +160,10 @@ impl<'p, T: Real> Interpreter<'p, T> {
                 self.need(input)?;
                 T::from_f64(f64::from(self.levels[input.index()]))
             }
-            // Occurs in the result map of a symmetry only, which is never evaluated at a point.
-            Node::Result(_) => T::from_f64(f64::NAN),
+            // Occurs in the result map of a symmetry only, which is about no point.
+            Node::Result(component) => {
+                self.mapped.get(usize::from(component)).copied().unwrap_or_else(|| T::from_f64(f64::NAN))
+            }
             Node::Unary(op, a) => T::unary(op, self.number(a)?),
             Node::Binary(op, a, b) => T::binary(op, self.number(a)?, self.number(b)?),
             Node::Ternary(op, a, b, c) => T::ternary(op, self.number(a)?, self.number(b)?, self.number(c)?),

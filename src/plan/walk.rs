@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::{Plan, Step};
 use crate::eval::{Interpreter, NeedsFetch};
-use crate::program::{Domain, ExprId, InputId, InputSet, LevelTerm, Node, Program, Real, Value};
+use crate::program::{Domain, ExprId, InputId, InputSet, LevelTerm, Program, Value};
 
 /// The end of a way through a plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,9 +105,8 @@ impl<'a, 'p> Walker<'a, 'p> {
                 Step::Leaf(leaf) => {
                     (walked.row, walked.line) = (leaf.row, leaf.line);
                     let values = leaf.values.iter().map(|value| interpreter.number(*value));
-                    walked.values = results.iter().fold(values.collect::<Result<Vec<_>, _>>()?, |values, map| {
-                        map.iter().map(|component| self.result(*component, &values)).collect()
-                    });
+                    let values = values.collect::<Result<Vec<_>, _>>()?;
+                    walked.values = results.iter().fold(values, |values, map| interpreter.mapped(map, &values));
                     return Ok(walked);
                 }
             }
@@ -134,22 +133,6 @@ impl<'a, 'p> Walker<'a, 'p> {
             turned[input.index()] = Some(value);
         }
         Ok(turned)
-    }
-
-    /// A component of a result, mapped by a symmetry.
-    fn result(&self, map: ExprId, values: &[f32]) -> f32 {
-        match self.program.pool.node(map) {
-            Node::Const(number) => number.get() as f32,
-            Node::Word(word) => f32::from_word(word),
-            Node::Result(component) => values.get(usize::from(component)).copied().unwrap_or(f32::NAN),
-            Node::Unary(op, a) => f32::unary(op, self.result(a, values)),
-            Node::Binary(op, a, b) => f32::binary(op, self.result(a, values), self.result(b, values)),
-            Node::Ternary(op, a, b, c) => {
-                f32::ternary(op, self.result(a, values), self.result(b, values), self.result(c, values))
-            }
-            // A result map is about the result alone.
-            Node::Input(_) | Node::Index(_) | Node::Select(..) => f32::NAN,
-        }
     }
 }
 

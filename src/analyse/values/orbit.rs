@@ -4,46 +4,17 @@
 use super::point::{Outcome, Point};
 use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::Study;
-use crate::program::{Cond, CondId, ExprId, Node, Pool, Program};
+use crate::eval::Interpreter;
+use crate::program::{ExprId, Node, Pool, Program};
 
 /// Most images of one point that are looked at.
 const MAX_MEMBERS: usize = 128;
 
 /// The result that a point has if it has some symmetries one after the other, and its image this result.
-fn said(program: &Program, path: &[usize], image: &[f64]) -> Option<Vec<f64>> {
-    let mut maps = path.iter().rev().filter_map(|number| program.symmetries[*number].result.as_ref());
-    maps.try_fold(image.to_vec(), |values, map| {
-        map.iter().map(|component| result_at(&program.pool, *component, &values)).collect()
-    })
-}
-
-/// A component of a result map at a result; it mentions nothing else.
-fn result_at(pool: &Pool, map: ExprId, values: &[f64]) -> Option<f64> {
-    let at = |expr| result_at(pool, expr, values);
-    Some(match pool.node(map) {
-        Node::Result(component) => *values.get(usize::from(component))?,
-        Node::Const(number) => number.get(),
-        Node::Word(word) => f64::from(word),
-        Node::Unary(op, a) => op.apply(at(a)?),
-        Node::Binary(op, a, b) => op.apply(at(a)?, at(b)?),
-        Node::Ternary(op, a, b, c) => op.apply(at(a)?, at(b)?, at(c)?),
-        Node::Select(condition, then, other) => at(if condition_at(pool, condition, values)? { then } else { other })?,
-        Node::Input(_) | Node::Index(_) => return None,
-    })
-}
-
-/// A condition of a result map at a result.
-fn condition_at(pool: &Pool, condition: CondId, values: &[f64]) -> Option<bool> {
-    let at = |condition: &CondId| condition_at(pool, *condition, values);
-    Some(match pool.cond(condition) {
-        Cond::Const(value) => *value,
-        Cond::Compare(op, a, b) => op.holds(result_at(pool, *a, values)?, result_at(pool, *b, values)?),
-        Cond::Not(a) => !at(a)?,
-        Cond::And(parts) => parts.iter().map(at).collect::<Option<Vec<_>>>()?.into_iter().all(|holds| holds),
-        Cond::Or(parts) => parts.iter().map(at).collect::<Option<Vec<_>>>()?.into_iter().any(|holds| holds),
-        Cond::If(a, b, c) => at(if at(a)? { b } else { c })?,
-        Cond::Level(..) => return None,
-    })
+fn said(program: &Program, path: &[usize], image: &[f64]) -> Vec<f64> {
+    let maps = path.iter().rev().filter_map(|number| program.symmetries[*number].result.as_ref());
+    let mut interpreter = Interpreter::<f64>::new(program);
+    maps.fold(image.to_vec(), |values, map| interpreter.mapped(map, &values))
 }
 
 /// An image of a point.
@@ -80,7 +51,7 @@ impl Orbit {
                 }
                 let outcome = point.outcome(program);
                 let path: Vec<usize> = from.path.iter().copied().chain([*number]).collect();
-                let Some(says) = said(program, &path, &outcome.values) else { continue };
+                let says = said(program, &path, &outcome.values);
                 // A point that is its own image has a say if it contradicts itself.
                 let known =
                     |member: &Member| member.point == point && (path.len() > 1 || agree(program, &member.says, &says));
