@@ -14,6 +14,7 @@ use crate::analyse;
 use crate::cli::output::stdout;
 use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::explain::{self, Explanation, Needed, Tested, code, text};
+use crate::points;
 use crate::program::{InputId, Program, Value};
 use crate::show;
 
@@ -79,22 +80,13 @@ fn explain_code(word: &str, report: &Report) -> Result<Outcome> {
     Ok(Outcome::Clean)
 }
 
-/// The parts of a text between its commas; those in parentheses belong to a name, `light(0,1)=0.5`.
-fn parts(text: &str) -> impl Iterator<Item = &str> {
-    let mut depth = 0_i32;
-    text.split(move |c| {
-        depth += i32::from(c == '(') - i32::from(c == ')');
-        c == ',' && depth <= 0
-    })
-}
-
 /// Reads `H=left,dV=0.5` and fills in defaults; returns which inputs those are.
 fn point(program: &Program, source: &Arc<Source>) -> std::result::Result<(Vec<Option<Value>>, Vec<InputId>), Failure> {
     let mut point: Vec<Option<Value>> = vec![None; program.inputs.len()];
     let mut places: Vec<Option<Span>> = vec![None; program.inputs.len()];
     let mut errors = Vec::new();
     let mut start = 0;
-    for part in parts(&source.text) {
+    for part in points::parts(&source.text) {
         let span = Span::new(start, start + part.len());
         start = span.end + 1;
         if part.trim().is_empty() {
