@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 
 use umbrage::diag::Source;
 use umbrage::eval::{Batch, Columns, Interpreter};
+use umbrage::points::random::Random;
 use umbrage::profile;
 use umbrage::program::Program;
 use umbrage::scene::Scene;
@@ -15,7 +16,7 @@ use umbrage::tuned::{Auto, Tuned};
 use crate::choices::Choices;
 use crate::corpus::{Family, files};
 use crate::judge::tables::Depth;
-use crate::judge::{Court, failures, tables};
+use crate::judge::{Court, device, failures, tables};
 use crate::mutate::mutated;
 use crate::{command, tables as random};
 
@@ -63,6 +64,14 @@ pub(crate) const ALL: &[Target] = &[
         cases: "random tables",
         make: well_formed,
         judge: table,
+    },
+    Target {
+        name: "devices",
+        about: "random well-formed tables on a software adapter",
+        share: 6,
+        cases: "random tables",
+        make: well_formed,
+        judge: on_a_device,
     },
     Target {
         name: "ron",
@@ -159,6 +168,19 @@ fn well_formed(choices: &mut Choices<'_>) -> Case {
     let mut case = Case::of("t.ron", text.into_bytes(), seed);
     case.files.extend(beside.into_iter().map(|(name, text)| (name, text.into_bytes())));
     case
+}
+
+/// What cannot be read is judged among the `tables`.
+fn on_a_device(court: &mut Court<'_>, case: &Case) {
+    let name = court.directory.join("t.ron").to_string_lossy().into_owned();
+    let source = Source::new(name, case.text().unwrap_or_default().to_owned());
+    let Ok(programs) = Table::parse(source).and_then(|table| Program::check_all(&table)) else {
+        return court.count("refused", 1);
+    };
+    let mut random = Random::new(case.seed);
+    for program in &programs {
+        device::judge(court, program, &mut random);
+    }
 }
 
 /// A file to begin with, made wrong.

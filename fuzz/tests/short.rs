@@ -18,3 +18,9 @@ fn a_few_files_of_each_format_are_without_faults() {
         "--cases 600 --seed 1 --no-shrink --faults faults csv json captures profiles tuned scenes obj gltf glb commands",
     );
 }
+
+/// Without a driver these say so, and count nothing.
+#[test]
+fn a_few_tables_do_on_a_device_what_they_do_here() {
+    run("--cases 12 --seed 1 --no-shrink --faults faults devices");
+}

@@ -144,7 +144,7 @@ impl<Set> Output<Set> {
     }
 
     /// Returns whether a list occurs in it.
-    pub(crate) fn has_list(&self) -> bool {
+    pub fn has_list(&self) -> bool {
         match self {
             Output::Number(_)
             | Output::Vector(..)

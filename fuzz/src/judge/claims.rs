@@ -8,7 +8,7 @@ use umbrage::analyse::Findings;
 use umbrage::diag::{Diagnostic, Span, codes};
 use umbrage::eval::{Interpreter, Precise};
 use umbrage::points::Point;
-use umbrage::program::{Comparison, Cond, CondId, ExprId, Input, Node, Program, TernaryOp};
+use umbrage::program::{BinaryOp, Comparison, Cond, CondId, ExprId, Input, Node, Program, TernaryOp};
 use umbrage::table::HitPolicy;
 
 use super::Court;
@@ -30,7 +30,7 @@ struct Claims<'c, 'd, 'p> {
     precise: Precise<'p>,
 }
 
-impl Claims<'_, '_, '_> {
+impl<'p> Claims<'_, '_, 'p> {
     fn finding(&mut self, finding: &Diagnostic) {
         self.court.count(&format!("findings {}", finding.code), 1);
         match finding.code {
@@ -185,33 +185,77 @@ impl Claims<'_, '_, '_> {
                 None => return self.false_claim(finding, "the point lacks an input that is needed"),
             }
         }
-        let values = [first, second].map(|row| self.values_of(row, &point));
-        if let [Some(a), Some(b)] = &values
-            && a.iter().zip(b).all(|(a, b)| a == b)
-        {
-            self.false_claim(finding, format!("both give {a:?} there"));
+        let [firsts, seconds] = [first, second].map(|row| self.values_of(row, &point).unwrap_or_default());
+        let mut pairs = firsts.iter().flat_map(|a| seconds.iter().map(move |b| (*a, *b)));
+        let same = |(a, b): (&[ExprId], &[ExprId])| {
+            self.numbers_of(a, &point) == self.numbers_of(b, &point) && self.are_equal(a, b, &point)
+        };
+        if !firsts.is_empty() && !seconds.is_empty() && pairs.all(same) {
+            self.false_claim(finding, format!("both give {:?} there", self.numbers_of(firsts[0], &point)));
         }
     }
 
-    /// What a row gives at a point, taken by itself.
-    fn values_of(&self, row: usize, point: &Point) -> Option<Vec<f64>> {
+    /// The terms that a row can give at a point, taken by itself: of several lines, if `f64` cannot tell which applies.
+    fn values_of(&self, row: usize, point: &Point) -> Option<Vec<&'p [ExprId]>> {
+        let (program, lines) = (self.program, self.lines_at(row, point)?);
+        let of = |line: Option<usize>| line.map_or(&program.default, |line| &program.rows[row].lines[line].values);
+        Some(lines.into_iter().map(|line| of(line).as_slice()).collect())
+    }
+
+    /// The lines of a row that can apply first at a point; none where no line may.
+    fn lines_at(&self, row: usize, point: &Point) -> Option<Vec<Option<usize>>> {
         let mut wide = Interpreter::<f64>::new(self.program);
         wide.place(point).ok()?;
-        let mut values = &self.program.default;
-        for line in &self.program.rows[row].lines {
-            if wide.holds(line.condition).ok()? {
-                values = &line.values;
-                break;
+        let mut possible = Vec::new();
+        for (number, line) in self.program.rows[row].lines.iter().enumerate() {
+            let (applies, fails) = self.ways_of(&mut wide, line.condition)?;
+            if applies {
+                possible.push(Some(number));
+            }
+            if !fails {
+                return Some(possible);
             }
         }
+        possible.push(None);
+        Some(possible)
+    }
+
+    /// Whether a row can be taken at a point: its guard can hold, and those before it can fail.
+    fn can_be_taken(&self, row: usize, point: &Point) -> Option<bool> {
+        let mut wide = Interpreter::<f64>::new(self.program);
+        wide.place(point).ok()?;
+        for other in &self.program.rows[..row] {
+            if !self.ways_of(&mut wide, other.guard)?.1 {
+                return Some(false);
+            }
+        }
+        Some(self.ways_of(&mut wide, self.program.rows[row].guard)?.0)
+    }
+
+    fn numbers_of(&self, values: &[ExprId], point: &Point) -> Option<Vec<f64>> {
+        let mut wide = Interpreter::<f64>::new(self.program);
+        wide.place(point).ok()?;
         values.iter().map(|value| wide.number(*value).ok()).collect()
+    }
+
+    /// Whether terms are equal at a point over the reals: `f64` takes what is nearly equal for equal.
+    fn are_equal(&self, a: &[ExprId], b: &[ExprId], point: &Point) -> bool {
+        let mut program = self.program.clone();
+        let pairs = a.iter().zip(b);
+        let same: Vec<CondId> = pairs.map(|(a, b)| program.pool.compare(Comparison::Equal, *a, *b)).collect();
+        let Some(mut precise) = Precise::new(&program) else { return true };
+        same.iter().all(|same| precise.holds_at(point, *same) == Ok(true))
     }
 
     fn no_line(&mut self, finding: &Diagnostic) {
         let Some(point) = self.place(finding, "for instance at ") else { return };
         let row = self.rows_of(&finding.message).first().copied();
         let ways = self.ways(&point);
-        if !ways.contains(&(row, None)) {
+        let nearly = row.is_some_and(|row| {
+            let without = self.lines_at(row, &point).is_some_and(|lines| lines.contains(&None));
+            without && self.can_be_taken(row, &point) == Some(true)
+        });
+        if !ways.contains(&(row, None)) && !nearly {
             self.false_claim(finding, format!("there a case and line are taken: {ways:?}"));
         }
     }
@@ -242,7 +286,9 @@ impl Claims<'_, '_, '_> {
         }
         let ways = self.ways(&point);
         let counts = match self.program.hit_policy {
-            HitPolicy::First | HitPolicy::Unique => ways.iter().any(|(taken, _)| *taken == Some(row)),
+            HitPolicy::First | HitPolicy::Unique => {
+                ways.iter().any(|(taken, _)| *taken == Some(row)) || self.can_be_taken(row, &point) == Some(true)
+            }
             HitPolicy::Collect => self.holds(self.program.rows[row].guard, &point) == Some(true),
         };
         if !counts {
@@ -299,14 +345,16 @@ impl Claims<'_, '_, '_> {
         let bound = finding.message.rsplit(' ').next().and_then(|word| word.parse::<f64>().ok());
         let (Some(line), Some(bound)) = (line, bound) else { return };
         let way = (Some(row), Some(line));
+        // All components, unless some are named.
+        let named: Vec<&str> = finding.message.split('`').skip(1).step_by(2).collect();
+        let components = self.program.output.components();
+        let is_meant = |number: usize| named.is_empty() || named.contains(&components[number].name.as_str());
         let inside = self.known.iter().filter(|known| known.assumed).find(|known| {
             (known.wide.row, known.wide.line) == way
                 && known.real == Some(way)
-                && known
-                    .wide
-                    .values
-                    .iter()
-                    .any(|value| !value.is_nan() && (value - bound).abs() > 1e-9 * bound.abs().max(1.0))
+                && known.wide.values.iter().enumerate().any(|(number, value)| {
+                    is_meant(number) && !value.is_nan() && (value - bound).abs() > 1e-9 * bound.abs().max(1.0)
+                })
         });
         if let Some(known) = inside {
             let why = format!("it is {:?} at {}", known.wide.values, words(self.program, &known.point));
@@ -468,6 +516,12 @@ impl Trace<'_> {
             Node::Ternary(TernaryOp::Smoothstep, lo, hi, at) => {
                 self.found |= self.wide.number(lo).ok()? == self.wide.number(hi).ok()?;
                 [lo, hi, at].into_iter().try_for_each(|part| self.value(part))
+            }
+            // Undefined for shaders, whatever the interpreter makes of it.
+            Node::Binary(BinaryOp::Pow, base, exponent) => {
+                let (from, to) = (self.wide.number(base).ok()?, self.wide.number(exponent).ok()?);
+                self.found |= from < 0.0 || from == 0.0 && to <= 0.0;
+                [base, exponent].into_iter().try_for_each(|part| self.value(part))
             }
             node @ (Node::Const(_)
             | Node::Word(_)

@@ -5,6 +5,7 @@
 
 pub(crate) mod claims;
 pub(crate) mod clock;
+pub(crate) mod device;
 pub(crate) mod failures;
 pub(crate) mod plans;
 pub(crate) mod points;

@@ -5,7 +5,7 @@ use umbrage::emit::{self, Target};
 use umbrage::plan::walk::Walker;
 use umbrage::plan::{Plan, PlanOptions, Shape, Weights};
 use umbrage::points::random::Random;
-use umbrage::program::{Cond, Domain, ExprId, LevelTerm, Node, Program, Symmetry};
+use umbrage::program::{Cond, Domain, ExprId, InputId, LevelTerm, Node, Program, Symmetry};
 use umbrage::prove::Proved;
 
 use super::points::{Known, bits, words};
@@ -190,7 +190,7 @@ fn unsuitable(court: &mut Court<'_>, program: &Program, shape: Shape, failure: &
         program.assumptions.is_empty()
     } else if is("declares no symmetries") {
         program.symmetries.is_empty()
-    } else if is("has none of its symmetries in any state") {
+    } else if is("none of its symmetries turns a state into another one") {
         !symmetric(program)
     } else if is("no state that the assumptions allow") {
         true
@@ -205,7 +205,7 @@ fn unsuitable(court: &mut Court<'_>, program: &Program, shape: Shape, failure: &
     court.count("plans that do not suit", 1);
 }
 
-/// Returns whether a symmetry that changes levels plainly holds, since all results are one and the same.
+/// Returns whether a symmetry that changes states plainly holds, since all results are one and the same.
 fn symmetric(program: &Program) -> bool {
     let constants =
         |values: &[ExprId]| values.iter().map(|value| program.pool.constant(*value)).collect::<Option<Vec<_>>>();
@@ -217,7 +217,8 @@ fn symmetric(program: &Program) -> bool {
         LevelTerm::If(..) => true,
         LevelTerm::Const(_) | LevelTerm::Input(_) => false,
     };
-    let plain =
-        |symmetry: &Symmetry| symmetry.result.is_none() && symmetry.levels.iter().any(|(_, term)| changes(term));
+    let of_states = |input: InputId| program.states.digits().iter().any(|(digit, _)| *digit == input);
+    let turns = |(input, term): &(InputId, LevelTerm)| of_states(*input) && changes(term);
+    let plain = |symmetry: &Symmetry| symmetry.result.is_none() && symmetry.levels.iter().any(turns);
     all && program.symmetries.iter().any(plain)
 }

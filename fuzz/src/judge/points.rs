@@ -202,7 +202,7 @@ pub(crate) fn read(program: &Program, text: &str) -> Result<Point, String> {
     if text.trim() == "the defaults of all inputs" {
         return Ok(point);
     }
-    for part in text.split(',') {
+    for part in umbrage::points::parts(text) {
         let (name, value) = part.trim().split_once('=').ok_or_else(|| format!("`{part}` is no input with a value"))?;
         let input: InputId = program.input(name).ok_or_else(|| format!("there is no input `{name}`"))?;
         point[input.index()] = Some(program.inputs[input.index()].parse(value)?);
