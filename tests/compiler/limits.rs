@@ -78,3 +78,58 @@ fn imports_of_one_file() {
     let failure = Program::read_all(directory.path().join("all.ron")).expect_err("ten tables in a chain");
     assert!(failure.to_string().contains("more than 8 tables import each other"), "{failure}");
 }
+
+/// The codes of what is found in a table of such cases over two numbers of 0 to 1.
+fn codes_of(extra: &str, case: impl Fn(usize) -> String, count: usize) -> Vec<&'static str> {
+    let cases: Vec<String> = (0..count).map(case).collect();
+    let program = parsed(format!(
+        r#"Table(language: 1, name: "t", hit_policy: First,
+            inputs: {{"x": Range(from: 0, to: 1), "y": Range(from: 0, to: 1)}}, {extra}
+            output: Number(), cases: [{}], default: 0)"#,
+        cases.join(", ")
+    ));
+    let mut codes: Vec<_> = umbrage::analyse::findings(&program).iter().map(|finding| finding.code.0).collect();
+    codes.dedup();
+    codes
+}
+
+/// Intervals side by side leave the end of the range to the default, and nothing is too intricate.
+#[test]
+fn a_thousand_intervals() {
+    let interval = |i: usize| {
+        let (from, to) = (i as f64 / 1000.0, (i + 1) as f64 / 1000.0);
+        format!(r#"Case(id: {i}, when: "x >= {from} && x < {to}", value: "{i} + y")"#)
+    };
+    let codes = codes_of("", interval, 1000);
+    assert!(codes.contains(&"U0503") && !codes.contains(&"U0530"), "{codes:?}");
+}
+
+/// Cases side by side that are declared to be continuous: each border is looked at, not each pair of cases.
+#[test]
+fn a_hundred_steps() {
+    let step =
+        |i: usize| format!(r#"Case(id: {i}, when: "x < {}", value: "x + {} * y")"#, (i + 1) as f64 / 128.0, i % 2);
+    let codes = codes_of(r#"continuity: {"c": Switch(of: ["x"])},"#, step, 128);
+    assert!(codes.contains(&"U0516") && !codes.contains(&"U0530"), "{codes:?}");
+}
+
+/// A name that is used twice by the next, twelve times over, is 4,096 operations written out, and twelve to compute.
+#[test]
+fn names_that_double() {
+    let names: Vec<String> = (0..12)
+        .map(|i| match i {
+            0 => r#""q0": "x * y""#.to_owned(),
+            _ => format!(r#""q{i}": "0.5 * q{0} + abs(q{0} - 0.{i})""#, i - 1),
+        })
+        .collect();
+    let extra = format!(r#"names: {{{}}}, continuity: {{"c": Switch(of: ["x"])}},"#, names.join(", "));
+    let case = |i: usize| match i {
+        0 => r#"Case(id: 0, when: "x < 0.5", value: "sqrt(q11)")"#.to_owned(),
+        _ => r#"Case(id: 1, when: "q11 < 0.5", value: 1)"#.to_owned(),
+    };
+    let start = std::time::Instant::now();
+    let codes = codes_of(&extra, case, 2);
+    assert!(codes.contains(&"U0516"), "{codes:?}");
+    // It took a minute; a second is usual, and other tests run beside this one.
+    assert!(start.elapsed() < std::time::Duration::from_secs(30), "{:?}", start.elapsed());
+}

@@ -11,6 +11,7 @@ use crate::analyse::sets::Set;
 use crate::analyse::sets::space::{Space, View};
 use crate::analyse::sets::study::{Piece, Study};
 use crate::analyse::values::point::{Point, Witness};
+use crate::analyse::values::real::range;
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
 use crate::program::{Continuity, ContinuityKind, ExprId, InputId, InputSet, LevelSet, LevelTerm, Program, Symmetry};
@@ -36,9 +37,11 @@ pub(in crate::analyse) const ANALYSIS: Analysis =
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let mut found = Vec::new();
+    // Each border is a study of its own, with its share of the work.
+    let share = study.space.sets.budget().left() / program.continuity.len().max(1) as u64;
     for continuity in &program.continuity {
         match &continuity.kind {
-            ContinuityKind::Border(..) => found.extend(border(program, continuity)),
+            ContinuityKind::Border(..) => found.extend(border(program, continuity, share)),
             ContinuityKind::Switch(inputs) => {
                 let jumps = switches(study, inputs);
                 found.extend(report(study, continuity, jumps, &|space, set| {
@@ -51,13 +54,13 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Finds the places at a border where the value is not that of the image across it.
-fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
+/// Finds the places at a border where the value is not that of the image across it, in so many steps.
+fn border(program: &Program, continuity: &Continuity, steps: u64) -> Vec<Diagnostic> {
     let ContinuityKind::Border(when, free) = &continuity.kind else { return Vec::new() };
     let Some((wide, other)) = doubled(program, free) else {
         return vec![left_out(continuity, "the table has too many inputs; list fewer under `free`")];
     };
-    let mut study = Study::new(&wide);
+    let mut study = Study::within(&wide, steps);
     let (mut levels, mut numbers) = (continuity.map.levels.clone(), continuity.map.numbers.clone());
     for (input, stand_in) in &other {
         match wide.levels(*input) {
@@ -75,7 +78,7 @@ fn border(program: &Program, continuity: &Continuity) -> Vec<Diagnostic> {
     let mut jumps = Vec::new();
     for piece in study.pieces.clone() {
         let here = study.space.sets.and(piece.set, admitted);
-        if here.is_empty() {
+        if study.space.is_void(here) {
             continue;
         }
         for image in &images {
@@ -160,30 +163,44 @@ fn doubled(program: &Program, free: &[InputId]) -> Option<(Program, Vec<(InputId
 /// Finds the places where comparisons of some inputs switch between different values.
 fn switches(study: &mut Study<'_>, inputs: &[InputId]) -> Vec<Jump> {
     let mut jumps = Vec::new();
+    let pieces = study.pieces.clone();
     for digit in study.space.switches(inputs) {
-        for piece in study.pieces.clone() {
-            let here = study.space.sets.and(piece.set, study.assumed);
-            for (side, level) in [(0, 0), (1, 2)] {
-                // What is left of the piece on that side, taken to the line itself.
-                let beside = study.space.sets.fix(here, digit, level);
-                let line = study.space.sets.atom(digit, LevelSet::one(1));
-                let beside = study.space.sets.and(beside, line);
-                if beside.is_empty() {
-                    continue;
-                }
-                for other in study.pieces.clone() {
+        // The line belongs to one side; from the other, look across it. Few pieces touch it at all.
+        let sides = [(0, 2), (2, 1)].map(|(own, across)| {
+            let assumed = study.assumed;
+            (touching(study, digit, own, assumed), touching(study, digit, across, Set::ALL))
+        });
+        for (number, piece) in pieces.iter().enumerate() {
+            for (here, there) in &sides {
+                let Some((_, beside)) = here.iter().find(|(own, _)| *own == number) else { continue };
+                for (other, across) in there {
                     if study.space.is_too_large() {
                         return jumps;
                     }
-                    // The line belongs to one side; from the other, look across it.
-                    let there = study.space.sets.fix(other.set, digit, if side == 0 { 2 } else { 1 });
-                    let both = study.space.sets.and(beside, there);
-                    jumps.extend(jump(study, both, &piece, &other));
+                    let both = study.space.sets.and(*beside, *across);
+                    jumps.extend(jump(study, both, piece, &pieces[*other]));
                 }
             }
         }
     }
     jumps
+}
+
+/// The pieces, by number, that come to a line from the side where a comparison has some outcome: each with the part
+/// of it on the line itself.
+fn touching(study: &mut Study<'_>, digit: usize, side: usize, within: Set) -> Vec<(usize, Set)> {
+    let line = study.space.sets.atom(digit, LevelSet::one(1));
+    let pieces: Vec<Set> = study.pieces.iter().map(|piece| piece.set).collect();
+    let mut touching = Vec::new();
+    for (number, piece) in pieces.into_iter().enumerate() {
+        let piece = study.space.sets.and(piece, within);
+        let beside = study.space.sets.fix(piece, digit, side);
+        let beside = study.space.sets.and(beside, line);
+        if !study.space.is_void(beside) {
+            touching.push((number, beside));
+        }
+    }
+    touching
 }
 
 fn jump(study: &mut Study<'_>, both: Set, here: &Piece, there: &Piece) -> Option<Jump> {
@@ -204,8 +221,8 @@ fn size(study: &mut Study<'_>, jump: &Jump) -> (f64, Set) {
     let (mut best, mut place) = (0.0, jump.set);
     for (a, b) in jump.values[0].iter().zip(&jump.values[1]) {
         for (low, high) in [(*a, *b), (*b, *a)] {
-            let ranges =
-                [low, high].map(|v| crate::analyse::values::real::range(study.program, &study.space.pool, v, 1e-2));
+            let budget = study.space.sets.budget();
+            let ranges = [low, high].map(|value| range(study.program, &study.space.pool, value, 1e-2, budget));
             let most = ranges[1].1 - ranges[0].0;
             if !(most > 0.0 && most < 1e9) {
                 continue;

@@ -11,7 +11,7 @@ use crate::analyse::sets::space::View;
 use crate::analyse::sets::study::Study;
 use crate::analyse::values::point::Point;
 use crate::analyse::values::real;
-use crate::analyse::values::search::{Asked, MAX_BOXES, Search, search};
+use crate::analyse::values::search::{Asked, Search, search, undecided};
 use crate::analyse::words;
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::print::Printer;
@@ -68,22 +68,17 @@ fn trouble(study: &mut Study<'_>, asker: &Asker, within: Set) -> Option<Diagnost
         None => format!("the guard of case {}", program.rows[asker.row].id),
         Some(line) => format!("the condition of line {} of case {}", line + 1, program.rows[asker.row].id),
     };
-    let mut undecided = None;
+    let mut note = None;
     for operand in operands {
         if study.space.is_void(operand.set) {
             continue;
         }
         let reached = |point: &Point| comes_to(study.program, asker, operand.comparison, point);
-        let asked = Asked { written: operand.written, reached: &reached };
+        let asked = Asked { written: operand.written, row: Some(asker.row), reached: &reached };
         match search(study, operand.set, operand.value, &asked) {
             Search::Nothing => {}
             Search::Unknown => {
-                let message = format!("whether {name} can leave the numbers was not decided");
-                undecided.get_or_insert_with(|| {
-                    Diagnostic::note(codes::NOT_ANALYSED, message).at(asker.span, "").help(format!(
-                        "it depends on too many inputs at once: {MAX_BOXES} parts of the domain were looked at"
-                    ))
-                });
+                note.get_or_insert_with(|| undecided(&name, asker.span));
             }
             Search::Found { trouble, point, exact } => {
                 let what = Printer { pool: &study.space.pool, inputs: &program.inputs }.expr(trouble.expr);
@@ -98,7 +93,7 @@ fn trouble(study: &mut Study<'_>, asker: &Asker, within: Set) -> Option<Diagnost
             }
         }
     }
-    undecided
+    note
 }
 
 /// The partial operands of the comparisons of a condition, each with the set where it is asked for.

@@ -19,6 +19,7 @@ pub(crate) mod style;
 pub(crate) mod symmetry;
 pub(crate) mod unused;
 
+use super::sets::budget::Budget;
 use super::sets::study::Study;
 use crate::diag::{Code, Diagnostic};
 use crate::program::Program;
@@ -35,6 +36,9 @@ pub(super) struct Analysis {
 pub(super) enum Run {
     /// The program as it is written; functions are analysed, too.
     Program(fn(&Program) -> Vec<Diagnostic>),
+    /// The same, if it may take long.
+    #[cfg_attr(not(feature = "precise"), allow(dead_code))]
+    Bounded(fn(&Program, &Budget) -> Vec<Diagnostic>),
     /// Sets of inputs, which the cases of a table divide.
     Sets(fn(&mut Study<'_>) -> Vec<Diagnostic>),
 }

@@ -6,7 +6,7 @@ use crate::analyse::sets::study::Study;
 use crate::analyse::values::point::Point;
 use crate::analyse::values::real;
 use crate::analyse::values::rounding::Rounding;
-use crate::analyse::values::search::{Asked, MAX_BOXES, Search, search};
+use crate::analyse::values::search::{Asked, Search, search, undecided};
 use crate::analyse::words;
 use crate::diag::{Diagnostic, codes};
 use crate::program::print::Printer;
@@ -35,6 +35,7 @@ pub fn ranges(program: &Program) -> Vec<Range> {
 }
 
 fn range(study: &mut Study<'_>, row: Option<usize>) -> Option<Range> {
+    study.space.begin();
     let pieces = study.pieces_of(row).to_vec();
     let (mut before, mut after) = (None, None);
     for piece in pieces {
@@ -43,7 +44,8 @@ fn range(study: &mut Study<'_>, row: Option<usize>) -> Option<Range> {
         }
         for value in piece.values {
             let inner = words::bare(&study.space, value);
-            let (lo, hi) = real::range(study.program, &study.space.pool, inner, PRECISION);
+            let budget = study.space.sets.budget();
+            let (lo, hi) = real::range(study.program, &study.space.pool, inner, PRECISION, budget);
             widen(&mut before, (lo, hi));
             widen(
                 &mut after,
@@ -82,47 +84,69 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     found
 }
 
-/// Lines whose value the clamp cuts wherever they count.
+/// Lines whose value, or some components of it, the clamp cuts wherever they count.
 fn beyond_the_clamp(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
+    let components = program.output.components();
     let mut found = Vec::new();
     for (row, case) in program.rows.iter().enumerate() {
         for (line, written) in case.lines.iter().enumerate() {
-            let Some((lo, hi)) = written.values.first().and_then(|value| clamp(study, *value)) else { continue };
-            let pieces = study.pieces_of(Some(row)).iter().filter(|piece| piece.line == Some(line));
-            let pieces: Vec<_> = pieces.cloned().collect();
-            let mut sides = [true, true];
-            let mut counts = false;
-            for piece in pieces {
-                let set = study.space.sets.and(piece.set, study.assumed);
-                if study.space.is_void(set) {
-                    continue;
-                }
-                counts = true;
-                for value in piece.values {
-                    let inner = words::bare(&study.space, value);
-                    let (low, high) = (study.space.pool.number(lo), study.space.pool.number(hi));
-                    let (above, below) = (study.space.less(high, inner), study.space.less(inner, low));
-                    for (side, beyond) in sides.iter_mut().zip([above, below]) {
-                        let inside = study.space.sets.minus(set, beyond);
-                        *side &= study.space.is_void(inside);
-                    }
+            // The bound and the side of it, with the components that it is so of.
+            let mut cut: Vec<(f64, &str, Vec<&str>)> = Vec::new();
+            for (number, component) in components.iter().enumerate() {
+                let Some((bound, side)) = always_cut(study, (row, line), number) else { continue };
+                match cut.iter_mut().find(|(other, beside, _)| (*other, *beside) == (bound, side)) {
+                    Some((.., names)) => names.push(&component.name),
+                    None => cut.push((bound, side, vec![&component.name])),
                 }
             }
-            let beyond = match sides {
-                [true, false] if counts => (hi, "above"),
-                [false, true] if counts => (lo, "below"),
-                _ => continue,
-            };
-            let message = format!("the value of case {} is always clamped to {}", case.id, beyond.0);
-            found.push(
-                Diagnostic::warning(codes::OUT_OF_RANGE, message)
-                    .at(written.span, format!("wherever this counts it is {} {}", beyond.1, beyond.0))
-                    .help(format!("write {}, or mend the formula", beyond.0)),
-            );
+            for (bound, side, names) in cut {
+                let (of, is) = match names.len() {
+                    all if all == components.len() => ("the value".to_owned(), "is"),
+                    1 => (format!("`{}` in the value", names[0]), "is"),
+                    _ => {
+                        let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+                        (format!("{} in the value", words::list(&names)), "are")
+                    }
+                };
+                let message = format!("{of} of case {} {is} always clamped to {bound}", case.id);
+                found.push(
+                    Diagnostic::warning(codes::OUT_OF_RANGE, message)
+                        .at(written.span, format!("wherever this counts it is {side} {bound}"))
+                        .help(format!("write {bound}, or mend the formula")),
+                );
+            }
         }
     }
     found
+}
+
+/// The bound of the clamp that a component of a line is beyond wherever the line counts, with the side.
+fn always_cut(study: &mut Study<'_>, (row, line): (usize, usize), component: usize) -> Option<(f64, &'static str)> {
+    let (lo, hi) = clamp(study, study.program.rows[row].lines[line].values[component])?;
+    let pieces = study.pieces_of(Some(row)).iter().filter(|piece| piece.line == Some(line));
+    let pieces: Vec<_> = pieces.cloned().collect();
+    let mut sides = [true, true];
+    let mut counts = false;
+    for piece in pieces {
+        let set = study.space.sets.and(piece.set, study.assumed);
+        if study.space.is_void(set) {
+            continue;
+        }
+        counts = true;
+        let inner = words::bare(&study.space, piece.values[component]);
+        let (low, high) = (study.space.pool.number(lo), study.space.pool.number(hi));
+        let (above, below) = (study.space.less(high, inner), study.space.less(inner, low));
+        for (side, beyond) in sides.iter_mut().zip([above, below]) {
+            let inside = study.space.sets.minus(set, beyond);
+            *side &= study.space.is_void(inside);
+        }
+    }
+    match sides {
+        [true, false] if counts => Some((hi, "above")),
+        [false, true] if counts => Some((lo, "below")),
+        _ => None,
+    }
 }
 
 /// Operations that can yield infinity or NaN.
@@ -139,25 +163,25 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
             if !real::is_partial(&study.space.pool, *value) || study.space.is_void(set) {
                 continue;
             }
-            let reached = |point: &Point| {
-                let outcome = point.outcome(program);
-                point.is_admitted(program) && (outcome.row, outcome.line) == (piece.row, piece.line)
-            };
-            let asked = Asked { written: *written, reached: &reached };
-            let (trouble, point, exact) = match search(study, set, *value, &asked) {
-                Search::Found { trouble, point, exact } => (trouble, point, exact),
-                Search::Nothing => continue,
-                Search::Unknown => {
-                    found.extend(undecided(study, piece.row, piece.line));
-                    continue;
-                }
-            };
             let span = match (piece.row.map(|row| &program.rows[row]), piece.line) {
                 (Some(row), Some(line)) => row.lines[line].span,
                 (Some(row), None) => row.span,
                 (None, _) => program.hit_policy_span,
             };
             let name = piece.row.map_or("the default".to_owned(), |row| format!("case {}", program.rows[row].id));
+            let reached = |point: &Point| {
+                let outcome = point.outcome(program);
+                point.is_admitted(program) && (outcome.row, outcome.line) == (piece.row, piece.line)
+            };
+            let asked = Asked { written: *written, row: piece.row, reached: &reached };
+            let (trouble, point, exact) = match search(study, set, *value, &asked) {
+                Search::Found { trouble, point, exact } => (trouble, point, exact),
+                Search::Nothing => continue,
+                Search::Unknown => {
+                    found.push(undecided(&format!("the value of {name}"), span));
+                    continue;
+                }
+            };
             let message = format!("the value of {name} can leave the numbers");
             if found.iter().any(|other| other.message == message && other.labels[0].span == span) {
                 continue;
@@ -177,15 +201,6 @@ fn trouble(study: &mut Study<'_>) -> Vec<Diagnostic> {
         }
     }
     found
-}
-
-/// A note on a value for which the search gave up.
-fn undecided(study: &Study<'_>, row: Option<usize>, line: Option<usize>) -> Option<Diagnostic> {
-    let row = &study.program.rows[row?];
-    let message = format!("whether the value of case {} can leave the numbers was not decided", row.id);
-    let note = Diagnostic::note(codes::NOT_ANALYSED, message);
-    let note = note.at(line.map_or(row.span, |line| row.lines[line].span), "");
-    Some(note.help(format!("it depends on too many inputs at once: {MAX_BOXES} parts of the domain were looked at")))
 }
 
 /// Comparisons for equality in guards, conditions and values. In assumptions they are how a line is described.

@@ -16,6 +16,7 @@ pub(in crate::analyse) const ANALYSIS: Analysis = Analysis { codes: &[codes::SET
 fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
     let program = study.program;
     let numbers = program.continuous();
+    let components = program.output.components();
     let mut found = Vec::new();
     for (row, case) in program.rows.iter().enumerate() {
         for (number, line) in case.lines.iter().enumerate() {
@@ -26,7 +27,11 @@ fn findings(study: &mut Study<'_>) -> Vec<Diagnostic> {
                 let Some(constant) = settled(study, (row, number), component, numbers) else { continue };
                 let place = words::called(program, (Some(row), Some(number)));
                 let constant = words::short(constant);
-                let message = format!("the formula of {place} is {constant} wherever it counts");
+                let of = match components.as_slice() {
+                    [_] => "of".to_owned(),
+                    several => format!("for `{}` in", several[component].name),
+                };
+                let message = format!("the formula {of} {place} is {constant} wherever it counts");
                 found.push(
                     Diagnostic::warning(codes::SETTLED, message)
                         .at(line.span, "no input makes a difference here")

@@ -9,6 +9,9 @@ use std::cell::Cell;
 /// thirty cases takes a hundredth of it.
 pub(in crate::analyse) const STEPS: u64 = 40_000_000;
 
+/// Operations on numbers that take as long as a step.
+const OPERATIONS: u64 = 8;
+
 /// The steps that an analysis has left.
 #[derive(Debug)]
 pub(in crate::analyse) struct Budget {
@@ -17,7 +20,7 @@ pub(in crate::analyse) struct Budget {
 }
 
 impl Budget {
-    pub(super) fn new(steps: u64) -> Self {
+    pub(in crate::analyse) fn new(steps: u64) -> Self {
         Self { steps, left: Cell::new(steps) }
     }
 
@@ -27,13 +30,23 @@ impl Budget {
     }
 
     /// Takes some steps; false if there are none left.
-    pub(super) fn spend(&self, steps: u64) -> bool {
+    pub(in crate::analyse) fn spend(&self, steps: u64) -> bool {
         self.left.set(self.left.get().saturating_sub(steps));
         !self.is_spent()
     }
 
+    /// Takes the steps that some operations on numbers are worth; false if there are none left.
+    pub(in crate::analyse) fn compute(&self, operations: usize) -> bool {
+        self.spend(1 + operations as u64 / OPERATIONS)
+    }
+
+    /// The steps that are left.
+    pub(in crate::analyse) fn left(&self) -> u64 {
+        self.left.get()
+    }
+
     /// Returns whether nothing is left. Then no answer is worth anything, and none may be kept.
-    pub(super) fn is_spent(&self) -> bool {
+    pub(in crate::analyse) fn is_spent(&self) -> bool {
         self.left.get() == 0
     }
 }

@@ -372,8 +372,7 @@ impl Sets {
                         continue;
                     }
                     pattern[place].1 = LevelSet(old.0 | LevelSet::one(level).0);
-                    let wider = self.pattern(&pattern);
-                    if !self.within(wider, set) {
+                    if !self.covers(set, &pattern) {
                         pattern[place].1 = old;
                     }
                 }
@@ -428,14 +427,33 @@ impl Sets {
         (!rest.is_empty()).then_some(pattern)
     }
 
+    /// Returns whether a set has everything where each of some digits, in ascending order, has one of some levels.
+    fn covers(&self, set: Set, pattern: &[(usize, LevelSet)]) -> bool {
+        let mut seen: HashSet<Set, BuildHasherDefault<Mixer>> = [set].into_iter().collect();
+        let mut open = vec![set];
+        while let Some(set) = open.pop() {
+            if set.is_empty() || !self.budget.spend(1) {
+                return false;
+            }
+            let Some((digit, children)) = self.test(set) else { continue };
+            let place = pattern.binary_search_by_key(&digit, |(digit, _)| *digit);
+            let levels = place.map_or(LevelSet::all(children.len()), |place| pattern[place].1);
+            let next = levels.iter().map(|level| children[usize::from(level)]);
+            open.extend(next.filter(|child| seen.insert(*child)));
+        }
+        true
+    }
+
     /// The set where each of some digits has one of some levels.
     pub(super) fn pattern(&mut self, pattern: &[(usize, LevelSet)]) -> Set {
-        let mut set = Set::ALL;
-        for (digit, levels) in pattern {
-            let atom = self.atom(*digit, *levels);
-            set = self.and(set, atom);
-        }
-        set
+        let mut pattern = pattern.to_vec();
+        pattern.sort_unstable_by_key(|(digit, _)| *digit);
+        // From the last digit, so that each takes one step.
+        pattern.into_iter().rev().fold(Set::ALL, |rest, (digit, levels)| {
+            let child = |level: usize| if levels.contains(level as u8) { rest } else { Set::EMPTY };
+            let children: Vec<Set> = (0..self.levels[digit]).map(child).collect();
+            self.node(digit, &children)
+        })
     }
 }
 

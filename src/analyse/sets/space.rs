@@ -20,7 +20,9 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use super::{Map, Set, Sets};
+use crate::analyse::values::real::{Boxed, Laid};
 use crate::program::normal::{Affine, Lattice, Normaliser, Term};
+use crate::program::operators::Bounds;
 use crate::program::rational::Rational;
 use crate::program::region::Sign;
 use crate::program::{
@@ -54,7 +56,37 @@ enum Question {
     /// The sign of an affine form, by its number.
     Sign(usize),
     /// A comparison that has no such form: whether the first value is less than the second.
-    Opaque(ExprId, ExprId),
+    Opaque(Box<Opaque>),
+}
+
+/// Two values of which one may be less than the other.
+struct Opaque {
+    sides: [ExprId; 2],
+    laid: [Laid; 2],
+}
+
+/// An affine form of inputs alone, in floating point: boxes by the thousand are asked for its sign.
+struct Linear {
+    constant: f64,
+    terms: Vec<(InputId, f64)>,
+}
+
+impl Linear {
+    fn of(form: &Affine) -> Option<Self> {
+        let term = |(term, factor): (&Term, &Rational)| match term {
+            Term::Input(input) => Some((*input, factor.to_f64())),
+            Term::Constant(_) | Term::Unary(..) | Term::Binary(..) | Term::Ternary(..) => None,
+        };
+        let terms = form.terms.iter().map(term).collect::<Option<_>>()?;
+        Some(Self { constant: form.constant.to_f64(), terms })
+    }
+
+    fn bounds(&self, part: &Boxed) -> Bounds {
+        self.terms.iter().fold((self.constant, self.constant), |(lo, hi), (input, factor)| {
+            let (from, to) = part.of(*input);
+            (lo + (from * factor).min(to * factor), hi + (from * factor).max(to * factor))
+        })
+    }
 }
 
 /// A set and the value there, for each value that an expression can have.
@@ -71,6 +103,8 @@ pub(in crate::analyse) struct Space<'p> {
     inputs_of_digits: Vec<InputId>,
     questions: Vec<Question>,
     forms: Vec<Affine>,
+    /// The forms once more, if they are of inputs alone.
+    linear: Vec<Option<Linear>>,
     form_digits: HashMap<Affine, usize>,
     /// The number of the form without its constant, for each form.
     numbers_of_forms: Vec<usize>,
@@ -109,6 +143,7 @@ impl<'p> Space<'p> {
             inputs_of_digits,
             questions: Vec::new(),
             forms: Vec::new(),
+            linear: Vec::new(),
             form_digits: HashMap::new(),
             numbers_of_forms: Vec::new(),
             numbers: HashMap::new(),
@@ -153,7 +188,7 @@ impl<'p> Space<'p> {
     pub(in crate::analyse) fn form_of(&self, digit: usize) -> Option<&Affine> {
         match self.questions.get(digit.checked_sub(self.inputs_of_digits.len())?)? {
             Question::Sign(form) => Some(&self.forms[*form]),
-            Question::Opaque(..) => None,
+            Question::Opaque(_) => None,
         }
     }
 
@@ -389,6 +424,7 @@ impl<'p> Space<'p> {
             Some(digit) => *digit,
             None => {
                 self.questions.push(Question::Sign(self.forms.len()));
+                self.linear.push(Linear::of(&canonical));
                 self.forms.push(canonical.clone());
                 let next = self.numbers.len();
                 let number = *self.numbers.entry(canonical.terms.clone()).or_insert(next);
@@ -451,7 +487,8 @@ impl<'p> Space<'p> {
         let digit = match self.opaque_digits.get(&(a, b)) {
             Some(digit) => *digit,
             None => {
-                self.questions.push(Question::Opaque(a, b));
+                let laid = [a, b].map(|side| Laid::new(&self.pool, side));
+                self.questions.push(Question::Opaque(Box::new(Opaque { sides: [a, b], laid })));
                 let digit = self.sets.digit(2);
                 self.opaque_digits.insert((a, b), digit);
                 digit

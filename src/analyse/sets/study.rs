@@ -4,7 +4,7 @@ use super::Set;
 use super::budget::STEPS;
 use super::nearby::Nearby;
 use super::space::{Space, View};
-use crate::program::{Comparison, Domain, ExprId, InputId, Program};
+use crate::program::{Comparison, CondId, Domain, ExprId, InputId, Program};
 use crate::table::HitPolicy;
 
 /// A value without selections, and the set where a row gives it.
@@ -138,6 +138,8 @@ pub(in crate::analyse) struct Study<'p> {
     pub(in crate::analyse) pieces: Vec<Piece>,
     /// The set where all assumptions hold.
     pub(in crate::analyse) assumed: Set,
+    /// For each row, the operations that it takes to compute all conditions up to its last line.
+    work: Vec<usize>,
 }
 
 impl<'p> Study<'p> {
@@ -152,7 +154,12 @@ impl<'p> Study<'p> {
         let rows = Rows::new(&mut space, View::PLAIN);
         let pieces = rows.pieces(&mut space, View::PLAIN);
         let assumed = assumed(&mut space, View::PLAIN);
-        Self { program, space, rows, pieces, assumed }
+        Self { program, space, rows, pieces, assumed, work: work(program) }
+    }
+
+    /// The operations that it takes at most to find out, at a point, that a row is taken; `None` is the default.
+    pub(in crate::analyse) fn work_to(&self, row: Option<usize>) -> usize {
+        row.map_or(self.work.last(), |row| self.work.get(row)).copied().unwrap_or_default()
     }
 
     /// The values of a row where it is taken; `None` is the default.
@@ -220,6 +227,17 @@ impl<'p> Study<'p> {
         }
         needed.into_iter().map(|assumption| program.assumptions[assumption].name.as_str()).collect()
     }
+}
+
+/// For each row, the operations of all conditions up to its last line, assumptions among them.
+fn work(program: &Program) -> Vec<usize> {
+    let of = |condition: CondId| program.pool.cond_facts(condition).size as usize;
+    let assumed: usize = program.assumptions.iter().map(|assumption| of(assumption.condition)).sum();
+    let rows = program.rows.iter().scan(assumed, |all, row| {
+        *all += of(row.guard) + row.lines.iter().map(|line| of(line.condition)).sum::<usize>();
+        Some(*all)
+    });
+    rows.collect()
 }
 
 /// The set where all assumptions hold.

@@ -5,8 +5,9 @@
 //! root at 0 is 0. Where an operation has no result, or one that no `f32` can
 //! hold, that is [`Trouble`].
 
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, HashMap};
 
+use crate::analyse::sets::budget::Budget;
 use crate::program::operators::{ANY, Bounds};
 use crate::program::{BinaryOp, Domain, ExprId, InputSet, Node, Pool, Program, TernaryOp};
 
@@ -36,6 +37,11 @@ impl Boxed {
     /// The interval of an input.
     pub(in crate::analyse) fn of(&self, input: crate::program::InputId) -> (f64, f64) {
         (self.lo[input.index()], self.hi[input.index()])
+    }
+
+    /// Takes a smaller interval for an input.
+    pub(in crate::analyse) fn cut(&mut self, input: crate::program::InputId, (lo, hi): Bounds) {
+        (self.lo[input.index()], self.hi[input.index()]) = (lo, hi);
     }
 
     /// The point in the middle.
@@ -102,22 +108,85 @@ pub(in crate::analyse) fn is_partial(pool: &Pool, expr: ExprId) -> bool {
     }
 }
 
-/// An operation of a value without selections that may fail in a box.
-pub(in crate::analyse) fn trouble(pool: &Pool, expr: ExprId, part: &Boxed) -> Option<Trouble> {
-    let mut trouble = None;
-    evaluate(pool, expr, part, &mut trouble);
-    trouble
+/// A value without selections, laid out to be computed over many boxes: operands first, and what occurs in
+/// several places once.
+#[derive(Debug, Clone)]
+pub(in crate::analyse) struct Laid {
+    steps: Vec<Step>,
+    inputs: InputSet,
 }
 
-/// Bounds of a value without selections over a box; everything where an operation may fail.
-pub(in crate::analyse) fn bounds(pool: &Pool, expr: ExprId, part: &Boxed) -> Bounds {
-    evaluate(pool, expr, part, &mut None)
+/// A step of it, whose operands are earlier steps.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    expr: ExprId,
+    node: Node,
+    operands: [usize; 3],
+}
+
+impl Laid {
+    pub(in crate::analyse) fn new(pool: &Pool, expr: ExprId) -> Self {
+        let mut laid = Self { steps: Vec::new(), inputs: pool.expr_facts(expr).inputs };
+        laid.lay(pool, expr, &mut HashMap::new());
+        laid
+    }
+
+    fn lay(&mut self, pool: &Pool, expr: ExprId, places: &mut HashMap<ExprId, usize>) -> usize {
+        if let Some(place) = places.get(&expr) {
+            return *place;
+        }
+        let node = pool.node(expr);
+        let mut operands = [0; 3];
+        // Of a selection nothing is known, whatever its sides are.
+        if !matches!(node, Node::Select(..)) {
+            for (operand, part) in operands.iter_mut().zip(node.children()) {
+                *operand = self.lay(pool, part, places);
+            }
+        }
+        self.steps.push(Step { expr, node, operands });
+        places.insert(expr, self.steps.len() - 1);
+        self.steps.len() - 1
+    }
+
+    /// The operations that it takes to compute it once.
+    pub(in crate::analyse) fn work(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Bounds over a box, everything where an operation may fail; and the first operation that may.
+    pub(in crate::analyse) fn over(&self, part: &Boxed) -> (Bounds, Option<Trouble>) {
+        let mut trouble = None;
+        let mut values: Vec<Bounds> = Vec::with_capacity(self.steps.len());
+        for Step { expr, node, operands } in &self.steps {
+            let [a, b, c] = operands.map(|place| values.get(place).copied().unwrap_or(ANY));
+            let (bounds, what) = match node {
+                Node::Const(number) => ((number.get(), number.get()), None),
+                Node::Input(input) => (part.of(*input), None),
+                Node::Index(_) | Node::Result(_) | Node::Select(..) => (ANY, None),
+                Node::Unary(op, _) => op.image(a),
+                Node::Binary(op, ..) => op.image(a, b),
+                Node::Ternary(op, ..) => op.image(a, b, c),
+            };
+            if let Some(what) = what {
+                trouble.get_or_insert(Trouble { expr: *expr, what });
+            }
+            values.push(if what.is_some() { ANY } else { bounds });
+        }
+        (values.last().copied().unwrap_or(ANY), trouble)
+    }
 }
 
 /// Bounds of a value without selections over the whole domain, to a precision if that can be had.
-pub(in crate::analyse) fn range(program: &Program, pool: &Pool, expr: ExprId, precision: f64) -> Bounds {
-    let upper = extreme(program, pool, expr, precision, 1.0);
-    let lower = extreme(program, pool, expr, precision, -1.0);
+pub(in crate::analyse) fn range(
+    program: &Program,
+    pool: &Pool,
+    expr: ExprId,
+    precision: f64,
+    budget: &Budget,
+) -> Bounds {
+    let laid = Laid::new(pool, expr);
+    let upper = extreme(program, &laid, precision, 1.0, budget);
+    let lower = extreme(program, &laid, precision, -1.0, budget);
     (-lower, upper)
 }
 
@@ -150,52 +219,38 @@ impl Ord for Promising {
 /// Most boxes that are looked at for one bound.
 const MAX_BOXES: usize = 4000;
 
-/// The largest value times `sign`, by branch and bound.
-fn extreme(program: &Program, pool: &Pool, expr: ExprId, precision: f64, sign: f64) -> f64 {
-    let inputs = pool.expr_facts(expr).inputs;
+/// The largest value times `sign`, by branch and bound; too large rather than too small where the work is too much.
+fn extreme(program: &Program, laid: &Laid, precision: f64, sign: f64, budget: &Budget) -> f64 {
     let bound = |part: &Boxed| {
-        let (lo, hi) = evaluate(pool, expr, part, &mut None);
+        budget.compute(laid.work());
+        let ((lo, hi), _) = laid.over(part);
         if sign > 0.0 { hi } else { -lo }
     };
     let whole = Boxed::domain(program);
     let mut reached = f64::NEG_INFINITY;
     let mut queue = BinaryHeap::from([Promising { bound: bound(&whole), part: whole }]);
     for _ in 0..MAX_BOXES {
+        if budget.is_spent() {
+            break;
+        }
         let Some(best) = queue.pop() else { break };
-        for point in best.part.corners(inputs) {
+        for point in best.part.corners(laid.inputs) {
             reached = reached.max(bound(&Boxed::at(&point)));
         }
         if best.bound - reached <= precision || !best.bound.is_finite() {
             return if best.bound - reached <= 1e-9 { reached } else { best.bound };
         }
-        for part in best.part.halves(inputs) {
+        for part in best.part.halves(laid.inputs) {
             queue.push(Promising { bound: bound(&part), part });
         }
     }
     queue.pop().map_or(reached, |best| best.bound.max(reached))
 }
 
-fn evaluate(pool: &Pool, expr: ExprId, part: &Boxed, trouble: &mut Option<Trouble>) -> Bounds {
-    let mut at = |expr| evaluate(pool, expr, part, trouble);
-    let (result, what) = match pool.node(expr) {
-        Node::Const(number) => ((number.get(), number.get()), None),
-        Node::Word(word) => ((f64::from(word), f64::from(word)), None),
-        Node::Input(input) => (part.of(input), None),
-        Node::Index(_) | Node::Result(_) | Node::Select(..) => (ANY, None),
-        Node::Unary(op, a) => op.image(at(a)),
-        Node::Binary(op, a, b) => op.image(at(a), at(b)),
-        Node::Ternary(op, a, b, c) => op.image(at(a), at(b), at(c)),
-    };
-    if let Some(what) = what {
-        trouble.get_or_insert(Trouble { expr, what });
-        return ANY;
-    }
-    result
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analyse::sets::budget::STEPS;
     use crate::diag::Source;
     use crate::table::Table;
 
@@ -215,7 +270,7 @@ mod tests {
     fn ranges_are_tight() {
         let of = |text: &str| {
             let (program, value) = value(text);
-            range(&program, &program.pool, value, 1e-3)
+            range(&program, &program.pool, value, 1e-3, &Budget::new(STEPS))
         };
         assert_eq!(of("1 + x - y"), (0.0, 3.0));
         assert_eq!(of("min(x, 1 - x)"), (0.0, 0.5));
@@ -228,7 +283,8 @@ mod tests {
     fn trouble_is_seen() {
         let what = |text: &str| {
             let (program, value) = value(text);
-            trouble(&program.pool, value, &Boxed::domain(&program)).map(|trouble| trouble.what)
+            let (_, trouble) = Laid::new(&program.pool, value).over(&Boxed::domain(&program));
+            trouble.map(|trouble| trouble.what)
         };
         assert_eq!(what("1 / (x + 1)"), None);
         assert_eq!(what("1 / y"), Some("can be a division by zero"));

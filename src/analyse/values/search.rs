@@ -2,13 +2,14 @@
 
 use super::orbit::chosen;
 use super::point::Point;
-use super::real::{self, Boxed, Trouble};
+use super::real::{Boxed, Laid, Trouble};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::study::Study;
+use crate::diag::{Diagnostic, Span, codes};
 use crate::program::{Domain, ExprId, Node, Pool, Program, Real};
 
 /// Most boxes that are looked at.
-pub(in crate::analyse) const MAX_BOXES: usize = 1024;
+const MAX_BOXES: usize = 1024;
 
 /// The extent of a box in which nothing more will be told apart.
 const SMALL: f64 = 1e-6;
@@ -34,6 +35,8 @@ pub(in crate::analyse) enum Search {
 pub(in crate::analyse) struct Asked<'a> {
     /// The value as it is written, with its selections.
     pub(in crate::analyse) written: ExprId,
+    /// The row that it belongs to; none for the default.
+    pub(in crate::analyse) row: Option<usize>,
     /// Returns whether the program comes to it at a point.
     pub(in crate::analyse) reached: &'a dyn Fn(&Point) -> bool,
 }
@@ -42,16 +45,26 @@ pub(in crate::analyse) struct Asked<'a> {
 pub(in crate::analyse) fn search(study: &mut Study<'_>, set: Set, value: ExprId, asked: &Asked<'_>) -> Search {
     let program = study.program;
     let inputs = study.space.pool.expr_facts(value).inputs;
-    let mut pending = std::collections::VecDeque::from([Boxed::domain(program)]);
+    let laid = Laid::new(&study.space.pool, value);
+    // What it takes to ask at one point: the way there, and both forms of the value.
+    let asking = study.work_to(asked.row) + laid.work() + study.space.pool.expr_facts(asked.written).size as usize;
+    let Some(whole) = study.space.around(set) else { return Search::Nothing };
+    let mut pending = std::collections::VecDeque::from([whole]);
     let mut looked = 0;
     while let Some(part) = pending.pop_front() {
-        let Some(trouble) = real::trouble(&study.space.pool, value, &part) else { continue };
+        if !study.space.sets.budget().compute(laid.work()) {
+            return Search::Unknown;
+        }
+        let (_, Some(trouble)) = laid.over(&part) else { continue };
         if !study.space.can_be_in(set, &part) {
             continue;
         }
         let mut beside = Vec::new();
         let mut corners = 0;
         for numbers in part.corners(inputs) {
+            if !study.space.sets.budget().compute(asking) {
+                return Search::Unknown;
+            }
             corners += 1;
             let Some(witness) = study.space.with_numbers(set, &numbers) else { continue };
             // What is not linear was taken to be possible, so the program itself is asked.
@@ -60,7 +73,7 @@ pub(in crate::analyse) fn search(study: &mut Study<'_>, set: Set, value: ExprId,
                 continue;
             }
             let taken = chosen(&mut study.space.pool, asked.written, &point);
-            if taken == value && real::trouble(&study.space.pool, value, &Boxed::at(&point.numbers)).is_some() {
+            if taken == value && laid.over(&Boxed::at(&point.numbers)).1.is_some() {
                 return Search::Found { trouble, point, exact: true };
             }
             beside.push((point, taken == value));
@@ -84,6 +97,14 @@ pub(in crate::analyse) fn search(study: &mut Study<'_>, set: Set, value: ExprId,
         pending.extend(part.halves(inputs));
     }
     Search::Nothing
+}
+
+/// The note on a search that ran out of patience, about something that can leave the numbers.
+pub(in crate::analyse) fn undecided(name: &str, span: Span) -> Diagnostic {
+    let message = format!("whether {name} can leave the numbers was not decided");
+    Diagnostic::note(codes::NOT_ANALYSED, message)
+        .at(span, "")
+        .help(format!("it depends on too many inputs at once: {MAX_BOXES} parts of the domain were looked at"))
 }
 
 /// A point beside another one, with numbers that an `f32` is, at which the value is not finite in `f32`.

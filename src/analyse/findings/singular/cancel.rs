@@ -6,6 +6,7 @@
 
 use super::trace::Trace;
 use super::{Singularity, called, loss, quote};
+use crate::analyse::sets::budget::Budget;
 use crate::diag::{Diagnostic, codes};
 use crate::program::{BinaryOp, ExprId, Node, Pool, Program, UnaryOp};
 use crate::show::{Precision, sentence};
@@ -22,7 +23,7 @@ struct Quotient {
 }
 
 /// One finding for each term that cancels behind a divisor that can be zero.
-pub(super) fn findings(program: &Program, singularities: &[Singularity]) -> Vec<Diagnostic> {
+pub(super) fn findings(program: &Program, singularities: &[Singularity], budget: &Budget) -> Vec<Diagnostic> {
     let pool = &program.pool;
     let mut told: Vec<(ExprId, ExprId)> = Vec::new();
     let mut all = Vec::new();
@@ -39,7 +40,7 @@ pub(super) fn findings(program: &Program, singularities: &[Singularity]) -> Vec<
             if told.contains(&(quotient.term, divisor)) {
                 continue;
             }
-            let Some(loss) = loss(program, singularity) else { continue };
+            let Some(loss) = loss(program, singularity, budget) else { continue };
             told.push((quotient.term, divisor));
             let term = match quotient.factor {
                 1.0 => quote(program, quotient.term),

@@ -23,6 +23,8 @@ mod zeros;
 use std::collections::BTreeMap;
 
 use super::{Analysis, Run};
+use crate::analyse::sets::budget::Budget;
+use crate::analyse::values::real::Laid;
 use crate::diag::{Diagnostic, codes};
 use crate::eval::{Precise, Unknown};
 use crate::program::normal::Normaliser;
@@ -56,8 +58,19 @@ pub struct Singularity {
     pub fixed: Option<(InputId, f64)>,
 }
 
+/// Operations that one takes as long as in a trace, which keeps all values by what they are values of.
+const TRACED: usize = 8;
+
+/// The same in hundreds of bits, at a point and beside it.
+const PRECISE: usize = 1000;
+
 /// Every singularity that was found, each place once.
 pub fn singularities(program: &Program) -> Vec<Singularity> {
+    within(program, &Budget::new(u64::MAX))
+}
+
+/// The same, as far as the work allows.
+fn within(program: &Program, budget: &Budget) -> Vec<Singularity> {
     let divisors = divisors(program);
     let Some(mut judge) = (!divisors.is_empty()).then(|| Precise::new(program)).flatten() else { return Vec::new() };
     let mut normaliser = Normaliser::default();
@@ -69,14 +82,21 @@ pub fn singularities(program: &Program) -> Vec<Singularity> {
                 continue;
             }
             // Moving an input to the zero may leave the domain, so what is declared is asked afterwards.
-            let candidates = points::drawn(program, tries(&zero)).flat_map(|base| zero.near(program, &base));
-            let zero_at = |point: &Vec<Value>| Trace::<f32>::of(program, point, divisor) == 0.0;
+            let bases = points::drawn(program, tries(&zero)).take_while(|_| !budget.is_spent());
+            let candidates = bases.flat_map(|base| zero.near(program, &base, budget));
+            let size = Laid::new(&program.pool, divisor).work();
+            let zero_at =
+                |point: &Vec<Value>| budget.compute(TRACED * size) && Trace::<f32>::of(program, point, divisor) == 0.0;
             let inside = candidates.filter(|point| zero_at(point) && points::holds(program, point));
             // Where a guard keeps the division away, it does so at most points.
-            let Some(point) = inside.take(points::BASES).find(|point| fails_at(program, divisor, point)) else {
+            let Some(point) = inside.take(points::BASES).find(|point| fails_at(program, divisor, point, budget)) else {
                 continue;
             };
-            let result = program.output.numbers(&Trace::<f32>::run(program, &point).result);
+            let trace = Trace::<f32>::run(program, &point);
+            if !budget.compute(PRECISE * trace.order.len()) {
+                return Vec::new();
+            }
+            let result = program.output.numbers(&trace.result);
             let limit = match judge.limit(&given(&point)) {
                 Ok(limit) => Some(limit),
                 Err(Unknown::NoLimit) => None,
@@ -95,8 +115,9 @@ fn tries(zero: &Zero) -> usize {
 }
 
 /// Returns whether the program divides by this expression there, and it is zero.
-fn fails_at(program: &Program, divisor: ExprId, point: &[Value]) -> bool {
+fn fails_at(program: &Program, divisor: ExprId, point: &[Value], budget: &Budget) -> bool {
     let trace = Trace::<f32>::run(program, point);
+    budget.compute(TRACED * trace.order.len());
     let divides = |expr: &ExprId| {
         let node = program.pool.node(*expr);
         matches!(node, Node::Binary(BinaryOp::Divide | BinaryOp::Remainder, _, b) if b == divisor)
@@ -195,23 +216,24 @@ fn at(program: &Program, point: &[Value]) -> String {
 
 /// The codes that are found here, and how.
 pub(in crate::analyse) const ANALYSIS: Analysis =
-    Analysis { codes: &[codes::REMOVABLE, codes::POLE, codes::CANCELS, codes::OVERFLOW], run: Run::Program(findings) };
+    Analysis { codes: &[codes::REMOVABLE, codes::POLE, codes::CANCELS, codes::OVERFLOW], run: Run::Bounded(findings) };
 
 /// Everything that is wrong with the numbers of a program.
-fn findings(program: &Program) -> Vec<Diagnostic> {
+fn findings(program: &Program, budget: &Budget) -> Vec<Diagnostic> {
     if !program.output.components().iter().any(|component| component.scalar == Scalar::Float) {
         return Vec::new();
     }
-    let singularities = singularities(program);
+    let singularities = within(program, budget);
     let (removable, poles): (Vec<_>, Vec<_>) = singularities.iter().partition(|s| s.limit.is_some());
-    let mut all: Vec<Diagnostic> = [removable, poles].iter().filter_map(|group| describe(program, group)).collect();
-    all.extend(cancel::findings(program, &singularities));
-    all.extend(overflows(program));
+    let mut all: Vec<Diagnostic> =
+        [removable, poles].iter().filter_map(|group| describe(program, group, budget)).collect();
+    all.extend(cancel::findings(program, &singularities, budget));
+    all.extend(overflows(program, budget));
     all
 }
 
 /// One finding for all places of a kind: a formula has many, and they have one cause.
-fn describe(program: &Program, places: &[&Singularity]) -> Option<Diagnostic> {
+fn describe(program: &Program, places: &[&Singularity], budget: &Budget) -> Option<Diagnostic> {
     let first = places.first()?;
     let shown = |values: &[f64]| sentence(&program.output, values, Precision::F32);
     let name = called(program);
@@ -244,7 +266,7 @@ fn describe(program: &Program, places: &[&Singularity]) -> Option<Diagnostic> {
         };
         diagnostic = diagnostic.help(format!("{place}: {fate}, at {}", at(program, point)));
     }
-    let lost = places.iter().filter(|s| s.limit.is_some()).find_map(|s| loss(program, s));
+    let lost = places.iter().filter(|s| s.limit.is_some()).find_map(|s| loss(program, s, budget));
     if let Some(loss) = lost {
         diagnostic = diagnostic.help(format!(
             "digits are lost nearby as well: at {} f32 gives {}, exact is {}",
@@ -272,7 +294,7 @@ pub(super) struct Loss {
 }
 
 /// Looks for lost digits beside a singularity, far away first: the farther, the worse.
-pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss> {
+pub(super) fn loss(program: &Program, singularity: &Singularity, budget: &Budget) -> Option<Loss> {
     let (input, value) = singularity.fixed?;
     let mut judge = Precise::new(program)?;
     let mut point = singularity.point.clone();
@@ -287,7 +309,11 @@ pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss>
                 continue;
             }
             point[input.index()] = Value::Number(beside);
-            let got = program.output.numbers(&Trace::<f32>::run(program, &point).result);
+            let trace = Trace::<f32>::run(program, &point);
+            if !budget.compute(PRECISE * trace.order.len()) {
+                return None;
+            }
+            let got = program.output.numbers(&trace.result);
             let Ok(exact) = judge.value(&given(&point)) else { continue };
             let lost = got.iter().zip(&exact).any(|(got, exact)| {
                 got.is_finite() && exact.is_finite() && exact.abs() > 1e-6 && (got - exact).abs() > LOST * exact.abs()
@@ -302,7 +328,7 @@ pub(super) fn loss(program: &Program, singularity: &Singularity) -> Option<Loss>
 }
 
 /// U0554: one finding for each kind of operation that overflows, at the first point that shows it.
-fn overflows(program: &Program) -> Vec<Diagnostic> {
+fn overflows(program: &Program, budget: &Budget) -> Vec<Diagnostic> {
     let risky = |expr: &ExprId| match program.pool.node(*expr) {
         Node::Unary(op, _) => op.row().is_exponential,
         Node::Binary(op, ..) => op.row().is_exponential,
@@ -321,6 +347,9 @@ fn overflows(program: &Program) -> Vec<Diagnostic> {
     let mut found: BTreeMap<ExprId, Diagnostic> = BTreeMap::new();
     for point in points::corners(program).into_iter().chain(points::inside(program, points::BASES)) {
         let trace = Trace::<f32>::run(program, &point);
+        if !budget.compute(TRACED * trace.order.len()) {
+            break;
+        }
         let got = program.output.numbers(&trace.result);
         if got.iter().all(|v| v.is_finite()) {
             continue;
@@ -329,6 +358,7 @@ fn overflows(program: &Program) -> Vec<Diagnostic> {
         let fails = |expr: &&ExprId| trace.value(**expr).is_some_and(|v| !v.is_finite());
         let first = trace.order.iter().filter(is_number).find(fails);
         let Some(first) = first.filter(|expr| risky(expr) && !found.contains_key(expr)) else { continue };
+        budget.compute(PRECISE * trace.order.len());
         let Ok(exact) = judge.limit(&given(&point)) else { continue };
         if exact.iter().any(|v| (*v as f32).is_infinite()) {
             continue;

@@ -1,6 +1,7 @@
 //! Findings in formulas as they are printed.
 
 use crate::analyse::found;
+use crate::analyse::sets::budget::{Budget, STEPS};
 
 /// The singularities among the findings.
 fn check(inputs: &str, value: &str) -> Vec<String> {
@@ -111,7 +112,7 @@ fn programs(name: &str, text: &str) -> Vec<crate::program::Program> {
 fn messages(programs: &[crate::program::Program], function: &str, code: crate::diag::Code) -> String {
     let named = |p: &&crate::program::Program| p.function.as_ref().is_some_and(|f| f.name == function);
     let program = programs.iter().find(named).expect("the table has this function");
-    let found = super::findings(program).into_iter().filter(|finding| finding.code == code);
+    let found = super::findings(program, &Budget::new(STEPS)).into_iter().filter(|finding| finding.code == code);
     found.map(|finding| finding.message).collect::<Vec<_>>().join("\n")
 }
 

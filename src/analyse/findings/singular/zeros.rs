@@ -5,7 +5,10 @@
 //! which is then halved. The search can miss a zero, so what comes out is a
 //! list of candidates and no proof that there are no others.
 
+use super::TRACED;
 use super::trace::Trace;
+use crate::analyse::sets::budget::Budget;
+use crate::analyse::values::real::Laid;
 use crate::program::normal::{Normaliser, Term};
 use crate::program::{BinaryOp, Domain, ExprId, InputId, Node, Program, UnaryOp, Value};
 
@@ -82,7 +85,7 @@ fn affine(program: &Program, normaliser: &mut Normaliser, expr: ExprId) -> Optio
 
 impl Zero {
     /// Points of the set close to `base`, in the domain: those whose rounding to `f32` may still be zeros.
-    pub(super) fn near(&self, program: &Program, base: &[Value]) -> Vec<Vec<Value>> {
+    pub(super) fn near(&self, program: &Program, base: &[Value], budget: &Budget) -> Vec<Vec<Value>> {
         let with = |input: InputId, value: f64| {
             let mut point = base.to_vec();
             point[input.index()] = Value::Number(value);
@@ -109,6 +112,11 @@ impl Zero {
             }
             Zero::Somewhere(expr) => {
                 let inputs = program.pool.expr_facts(*expr).inputs;
+                let size = Laid::new(&program.pool, *expr).work();
+                // Along each input as many as there are positions, and as many again for a change of sign.
+                if !budget.compute(2 * POSITIONS * TRACED * inputs.iter().count() * size) {
+                    return Vec::new();
+                }
                 let roots = inputs.iter().flat_map(|input| {
                     let at = |value: f64| Trace::<f64>::of(program, &with(input, value), *expr);
                     let Domain::Continuous { lo, hi, .. } = program.inputs[input.index()].domain else {

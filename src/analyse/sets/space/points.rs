@@ -6,9 +6,10 @@ use super::narrowed::Narrowed;
 use super::{Question, Space, code};
 use crate::analyse::sets::Set;
 use crate::analyse::values::point::{Point, Witness};
-use crate::analyse::values::real::{self, Boxed};
+use crate::analyse::values::real::Boxed;
 use crate::points::random::Random;
 use crate::program::normal::{Affine, Term};
+use crate::program::operators::Bounds;
 use crate::program::rational::Rational;
 use crate::program::region::{self, Sign};
 use crate::program::{Domain, Input, InputId, LevelSet};
@@ -137,7 +138,7 @@ impl Space<'_> {
         let first = self.inputs_of_digits.len();
         let forms = answers.iter().filter_map(|(digit, sign)| match self.questions[digit - first] {
             Question::Sign(form) => Some((form, *sign)),
-            Question::Opaque(..) => None,
+            Question::Opaque(_) => None,
         });
         forms.collect()
     }
@@ -195,10 +196,10 @@ impl Space<'_> {
         let point = Point { levels: Vec::new(), numbers };
         let mut rest = set;
         while let Some((digit, children)) = self.sets.test(rest) {
-            let answer = match self.questions[digit - self.inputs_of_digits.len()] {
-                Question::Sign(form) => clear_sign(self.normaliser.value(&self.forms[form], &point.numbers)).map(code),
-                Question::Opaque(a, b) => {
-                    let [a, b] = [a, b].map(|side| point.number(&self.pool, side));
+            let answer = match &self.questions[digit - self.inputs_of_digits.len()] {
+                Question::Sign(form) => clear_sign(self.normaliser.value(&self.forms[*form], &point.numbers)).map(code),
+                Question::Opaque(opaque) => {
+                    let [a, b] = opaque.sides.map(|side| point.number(&self.pool, side));
                     clear_sign((b - a, a.abs() + b.abs())).map(|sign| u8::from(sign != Sign::Positive))
                 }
             };
@@ -217,6 +218,34 @@ impl Space<'_> {
         Some(Witness { levels, numbers, certain })
     }
 
+    /// A box around the numbers that reach a set: the domain, cut where every way into the set compares an
+    /// input with a number. Nothing if the set has no numbers.
+    pub(in crate::analyse) fn around(&self, set: Set) -> Option<Boxed> {
+        let first = self.inputs_of_digits.len();
+        let cuts = self.sets.hull(set).into_iter().filter_map(|(digit, signs)| {
+            let Question::Sign(form) = self.questions.get(digit.checked_sub(first)?)? else { return None };
+            let [(input, factor)] = *self.linear[*form].as_ref()?.terms else { return None };
+            // The first factor of a form is 1.
+            (factor == 1.0).then(|| (input, -self.forms[*form].constant, signs))
+        });
+        let mut part = Boxed::domain(self.program);
+        for (input, at, signs) in cuts {
+            let (lo, hi) = enclosing(at);
+            let (mut from, mut to) = part.of(input);
+            if !signs.contains(code(Sign::Negative)) {
+                from = from.max(lo);
+            }
+            if !signs.contains(code(Sign::Positive)) {
+                to = to.min(hi);
+            }
+            if from > to {
+                return None;
+            }
+            part.cut(input, (from, to));
+        }
+        Some(part)
+    }
+
     /// Returns whether numbers of a box may reach a set.
     pub(in crate::analyse) fn can_be_in(&self, set: Set, part: &Boxed) -> bool {
         self.reach(set, part).is_some()
@@ -232,6 +261,9 @@ impl Space<'_> {
         let Some((digit, children)) = self.sets.test(set) else { return !set.is_empty() };
         if failed.contains(&set) {
             return false;
+        }
+        if !self.sets.budget().spend(1) {
+            return true;
         }
         let input = self.input_of(digit);
         let allowed = match input {
@@ -255,23 +287,29 @@ impl Space<'_> {
 
     /// The signs that the form of a digit can have in a box.
     pub(super) fn signs_in(&self, digit: usize, part: &Boxed) -> LevelSet {
-        let form = match self.questions[digit - self.inputs_of_digits.len()] {
-            Question::Sign(form) => &self.forms[form],
-            Question::Opaque(a, b) => {
-                let (a, b) = (real::bounds(&self.pool, a, part), real::bounds(&self.pool, b, part));
+        let form = match &self.questions[digit - self.inputs_of_digits.len()] {
+            Question::Sign(form) => *form,
+            Question::Opaque(opaque) => {
+                let [a, b] = opaque.laid.each_ref().map(|side| {
+                    self.sets.budget().compute(side.work());
+                    side.over(part).0
+                });
                 let slack = ROUNDED * [a.0, a.1, b.0, b.1].into_iter().map(f64::abs).fold(0.0, f64::max);
                 // Less, or not: both, if the bounds say nothing.
                 let (less, not) = (a.0 - slack < b.1 || slack.is_infinite(), a.1 + slack >= b.0 || slack.is_infinite());
                 return LevelSet(u64::from(less) | u64::from(not) << 1);
             }
         };
-        let Some((mut lo, mut hi)) = self.normaliser.bounds(form, &|input| part.of(input)) else {
-            return LevelSet::all(Sign::ALL.len());
+        let (lo, hi) = match &self.linear[form] {
+            Some(linear) => linear.bounds(part),
+            None => match self.normaliser.bounds(&self.forms[form], &|input| part.of(input)) {
+                Some((lo, hi)) => {
+                    let slack = ROUNDED * lo.abs().max(hi.abs());
+                    (lo - slack, hi + slack)
+                }
+                None => return LevelSet::all(Sign::ALL.len()),
+            },
         };
-        if form.terms.keys().any(|term| !matches!(term, Term::Input(_))) {
-            let slack = ROUNDED * lo.abs().max(hi.abs());
-            (lo, hi) = (lo - slack, hi + slack);
-        }
         let possible = [(Sign::Positive, hi > 0.0), (Sign::Zero, lo <= 0.0 && hi >= 0.0), (Sign::Negative, lo < 0.0)];
         let possible = possible.into_iter().filter(|(_, can)| *can);
         LevelSet(possible.fold(0, |set, (sign, _)| set | LevelSet::one(code(sign)).0))
@@ -285,7 +323,7 @@ impl Space<'_> {
                 let terms = self.forms[*form].terms.keys();
                 terms.into_iter().any(|term| matches!(term, Term::Input(input) if inputs.contains(input)))
             }
-            Question::Opaque(..) => false,
+            Question::Opaque(_) => false,
         };
         (0..self.questions.len()).filter(|number| involved(&self.questions[*number])).map(|n| n + first).collect()
     }
@@ -308,6 +346,16 @@ impl Space<'_> {
             Some(input.domain.point(chosen.to_f64()))
         };
         self.program.inputs.iter().enumerate().map(number).collect()
+    }
+}
+
+/// Numbers on both sides of a fraction, near it; the fraction itself if it is one.
+fn enclosing(fraction: Rational) -> Bounds {
+    let near = fraction.to_f64();
+    match Rational::exact(near) {
+        Some(same) if same == fraction => (near, near),
+        // Numerator and denominator may be rounded, too.
+        _ => (near.next_down().next_down(), near.next_up().next_up()),
     }
 }
 
