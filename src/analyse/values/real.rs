@@ -161,6 +161,7 @@ impl Laid {
             let [a, b, c] = operands.map(|place| values.get(place).copied().unwrap_or(ANY));
             let (bounds, what) = match node {
                 Node::Const(number) => ((number.get(), number.get()), None),
+                Node::Word(word) => ((f64::from(*word), f64::from(*word)), None),
                 Node::Input(input) => (part.of(*input), None),
                 Node::Index(_) | Node::Result(_) | Node::Select(..) => (ANY, None),
                 Node::Unary(op, _) => op.image(a),

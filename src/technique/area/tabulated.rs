@@ -26,7 +26,7 @@ impl Tabulated {
         };
         let counts = program.inputs.iter().zip(inputs).map(|(input, name)| match &input.domain {
             Domain::Discrete(levels) if input.name == *name && input.fetched.is_none() => Ok(levels.count()),
-            Domain::Discrete(_) | Domain::Continuous { .. } => Err(wrong()),
+            Domain::Discrete(_) | Domain::Continuous { .. } | Domain::Word => Err(wrong()),
         });
         let counts = counts.collect::<Result<Vec<usize>, Failure>>()?;
         if counts.len() != program.inputs.len() || counts.len() != inputs.len() {
