@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod adapter;
+mod area_agreement;
 mod diff;
 mod reordering;
 mod shadow_agreement;
