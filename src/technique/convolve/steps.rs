@@ -107,11 +107,9 @@ fn visited(occupied: &[bool], most: usize) -> Vec<usize> {
 impl Tables {
     fn policy(&self, light: &SlopeLight, thickness: f64, scale: f64, spread: &Spread) -> Result<Policy, Failure> {
         let blur = light.blur(self.kernel_of_light, spread.d1, thickness, scale)?;
-        let least = blur.variances[0].min(blur.variances[1]);
-        let advised = |deviation: f64| self.smear_of.call(&[("deviation", deviation.into())]);
-        // A line is as narrow as can be across, and no wider blur along it waits for that.
+        // What is narrow in one direction is cut there at nothing: the wide one says how often a blur is worth a sample.
         let widest = blur.variances[0].max(blur.variances[1]).sqrt();
-        let answer = advised(if least > 0.0 { least.sqrt() } else { widest })?;
+        let answer = self.smear_of.call(&[("deviation", widest.into())])?;
         let smear = match spread.smear {
             Some(smear) => smear,
             None => answer.level("policy")?,

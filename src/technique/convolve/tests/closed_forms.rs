@@ -32,7 +32,7 @@ impl<F: Fn(usize, usize) -> bool + Sync> Slabs for Occluder<F> {
 /// Slabs up to the distance at which the penumbra is right.
 const RIGHT: usize = 16;
 
-/// How the tests sweep: slabs are as thick as a pixel is wide.
+/// The way in which the tests sweep: slabs are as thick as a pixel is wide.
 struct Case {
     size: (usize, usize),
     kernel: Kernel,

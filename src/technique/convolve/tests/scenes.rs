@@ -111,7 +111,34 @@ fn empty_slabs_are_skipped() {
     assert!(worst > 0.0 && worst < 0.02, "{worst}");
 }
 
-/// The reference agrees with a light that is split into many parts, and is right on slopes.
+/// A light that is a line blurs along it, and across it not at all.
+#[test]
+fn a_line_of_light_blurs_along_itself() {
+    let line = "Gaussian(tilts: (0, 0), deviations: (0, 0.8), rotation: 70)";
+    let scene = scene(
+        line,
+        "(shape: Block(size: (9, 0.2, 9))), (shape: Block(size: (0.6, 0.1, 0.6)), at: (0, 1.5, 0), turn: (0, -70, 0))",
+    );
+    let difference = |technique: &dyn Technique| {
+        let picture = tried(&scene, technique, slabs(64)).unwrap_or_else(|failure| panic!("{failure}"));
+        let light = picture.colours(LIGHT).expect("a layer").to_vec();
+        // Shadow along the line, beside the block that hides its middle, and across the line.
+        let (s, c) = 70.0_f64.to_radians().sin_cos();
+        let at = |along: f64, across: f64| {
+            let (x, y) = (24.0 + 9.0 * (-s * along + c * across), 20.0 - 9.0 * (-c * along - s * across));
+            light[y as usize * 48 + x as usize][0]
+        };
+        [at(0.75, 0.0), at(-0.75, 0.0), at(0.0, 0.9), at(0.0, -0.9)]
+    };
+    let (iterated, truth) = (difference(&CONVOLVE), difference(&REFERENCE));
+    for values in [iterated, truth] {
+        let [a, b, c, d] = values;
+        let (along, across) = (a.max(b), c.min(d));
+        assert!(along < 0.7 && across > 0.72, "{iterated:?} {truth:?}");
+    }
+}
+
+/// Far beyond the distance at which penumbras are right, parts of a light are nearer to the truth than the whole.
 #[test]
 fn the_reference_is_what_splitting_leads_to() {
     let scene = scene(LAMP, "(shape: Block(size: (9, 0.2, 9))), (shape: Block(size: (1, 0.1, 1)), at: (0, 1.5, 0))");
@@ -119,13 +146,12 @@ fn the_reference_is_what_splitting_leads_to() {
     let truth = truth.colours(LIGHT).expect("a layer");
     let error = |split: u32, rho: f64| {
         let settings = slabs(64).with(&set::SPLIT, Value::Whole(split)).with(&set::RHO, Value::Number(rho));
-        let picture = rendered(&scene, settings);
-        let differences =
-            picture.colours(LIGHT).expect("a layer").iter().zip(truth).map(|(a, b)| f64::from(a[0] - b[0]).powi(2));
-        (differences.sum::<f64>() / truth.len() as f64).sqrt()
+        let picture = rendered(&scene, settings.with(&set::DISTANCE, Value::Number(0.25)));
+        let pixels = picture.colours(LIGHT).expect("a layer").iter().zip(truth);
+        (pixels.map(|(a, b)| f64::from(a[0] - b[0]).powi(2)).sum::<f64>() / truth.len() as f64).sqrt()
     };
     let (one, many) = (error(1, 1.0), error(16, 0.15));
-    assert!(many < 0.6 * one && many < 0.03, "{one} {many}");
+    assert!(many < 0.5 * one && one > 0.02, "{one} {many}");
 }
 
 #[test]
