@@ -2,7 +2,7 @@
 // mean, root A and covariance of the offsets at which a slab gathers light, in pixels
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 3da054714bc0ebf5, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -71,7 +71,7 @@ LightKernelKernelOfLightValue light_kernel_kernel_of_light(float tilt_x, float t
 // shadow behind a half plane: as it is, and by iterated blurs
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 777fd02187465d0a, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -242,7 +242,7 @@ LightKernelHalfPlaneValue light_kernel_half_plane(float at, float d, float mu, f
 // the iterated shadow of one of the lights that a light is split into
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 8747865cb36a716f, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -356,7 +356,7 @@ float light_kernel_half_plane_of_part(float at, float d, float mu, float sigma, 
 // place behind a half plane with a given shadow: a straight line, and by iterated blurs a root
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 3c8abda73f9a514f, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -446,7 +446,7 @@ LightKernelIsolineValue light_kernel_isoline(float d, float shadow, float mu, fl
 // shadow of a disk on its axis
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 7063cefee2b04946, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -508,7 +508,7 @@ float light_kernel_disk_centre(float radius, float s) {
 // shadow of a rectangle at a place
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 e968052c2d458f7b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -773,7 +773,7 @@ float light_kernel_rectangle(float x0, float x1, float y0, float y1, float x, fl
 // light at an opaque slope: drift in deviations per slab, what iterated blurs leave, and what is right
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 5797c85ee4ca20cf, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -1033,7 +1033,7 @@ LightKernelSlopeLightValue light_kernel_slope_light(float c, float mu_n, float s
 // place of a light among those that a light is split into, in deviations: mean 0 and covariance 1 over all of them, of one light 0
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 979d79a9112d231b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -1629,7 +1629,7 @@ LightKernelSplitNodesValue light_kernel_split_nodes(float M, float k) {
 // the same before all of them are moved and stretched, of any number of lights
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 c2e13ec005b30c71, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -1684,7 +1684,7 @@ LightKernelSpiralValue light_kernel_spiral(float M, float k) {
 // a place among others whose mean is 0, stretched to covariance 1
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 2d59b88430cc5b2d, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -1738,7 +1738,7 @@ LightKernelWhitenedValue light_kernel_whitened(float x, float y, float c11, floa
 // the same for a long thin light: the means of stripes of equal probability, stretched to variance 1
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 861fb00e44f55a5b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -2387,7 +2387,7 @@ float light_kernel_line_nodes(float M, float k) {
 // solid angle per area of slopes, for light that is scattered in a volume, and with the cosine of a plane that faces the viewer
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 7c43e157699581a3, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -2440,7 +2440,7 @@ LightKernelPerSlopeValue light_kernel_per_slope(float tau_x, float tau_y) {
 // share of a normal distribution below z deviations
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 211d9137462cf6be, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -2535,7 +2535,7 @@ float light_kernel_normal_cdf(float z) {
 // deviations below which a normal distribution has a share p
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 5b764f4302814c51, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 

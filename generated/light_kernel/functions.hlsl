@@ -2,7 +2,7 @@
 // mean, root A and covariance of the offsets at which a slab gathers light, in pixels
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 3da054714bc0ebf5, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -10,7 +10,7 @@
 // shadow behind a half plane: as it is, and by iterated blurs
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 777fd02187465d0a, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -18,7 +18,7 @@
 // the iterated shadow of one of the lights that a light is split into
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 8747865cb36a716f, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -26,7 +26,7 @@
 // place behind a half plane with a given shadow: a straight line, and by iterated blurs a root
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 3c8abda73f9a514f, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -34,7 +34,7 @@
 // shadow of a disk on its axis
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 7063cefee2b04946, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -42,7 +42,7 @@
 // shadow of a rectangle at a place
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 e968052c2d458f7b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -50,7 +50,7 @@
 // light at an opaque slope: drift in deviations per slab, what iterated blurs leave, and what is right
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 5797c85ee4ca20cf, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -58,7 +58,7 @@
 // place of a light among those that a light is split into, in deviations: mean 0 and covariance 1 over all of them, of one light 0
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 979d79a9112d231b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -66,7 +66,7 @@
 // the same before all of them are moved and stretched, of any number of lights
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 c2e13ec005b30c71, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -74,7 +74,7 @@
 // a place among others whose mean is 0, stretched to covariance 1
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 2d59b88430cc5b2d, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -82,7 +82,7 @@
 // the same for a long thin light: the means of stripes of equal probability, stretched to variance 1
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 861fb00e44f55a5b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -90,7 +90,7 @@
 // solid angle per area of slopes, for light that is scattered in a volume, and with the cosine of a plane that faces the viewer
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 7c43e157699581a3, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -98,7 +98,7 @@
 // share of a normal distribution below z deviations
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 211d9137462cf6be, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -106,7 +106,7 @@
 // deviations below which a normal distribution has a share p
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 5b764f4302814c51, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 

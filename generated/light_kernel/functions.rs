@@ -2,7 +2,7 @@
 // mean, root A and covariance of the offsets at which a slab gathers light, in pixels
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 3da054714bc0ebf5, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -113,7 +113,7 @@ impl LightKernelKernelOfLightInputs {
 // shadow behind a half plane: as it is, and by iterated blurs
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 777fd02187465d0a, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -323,7 +323,7 @@ impl LightKernelHalfPlaneInputs {
 // the iterated shadow of one of the lights that a light is split into
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 8747865cb36a716f, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -477,7 +477,7 @@ impl LightKernelHalfPlaneOfPartInputs {
 // place behind a half plane with a given shadow: a straight line, and by iterated blurs a root
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 3c8abda73f9a514f, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -606,7 +606,7 @@ impl LightKernelIsolineInputs {
 // shadow of a disk on its axis
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 7063cefee2b04946, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -703,7 +703,7 @@ impl LightKernelDiskCentreInputs {
 // shadow of a rectangle at a place
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 e968052c2d458f7b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -1008,7 +1008,7 @@ impl LightKernelRectangleInputs {
 // light at an opaque slope: drift in deviations per slab, what iterated blurs leave, and what is right
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 5797c85ee4ca20cf, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -1307,7 +1307,7 @@ impl LightKernelSlopeLightInputs {
 // place of a light among those that a light is split into, in deviations: mean 0 and covariance 1 over all of them, of one light 0
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 979d79a9112d231b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -1939,7 +1939,7 @@ impl LightKernelSplitNodesInputs {
 // the same before all of them are moved and stretched, of any number of lights
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 c2e13ec005b30c71, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -2030,7 +2030,7 @@ impl LightKernelSpiralInputs {
 // a place among others whose mean is 0, stretched to covariance 1
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 2d59b88430cc5b2d, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -2123,7 +2123,7 @@ impl LightKernelWhitenedInputs {
 // the same for a long thin light: the means of stripes of equal probability, stretched to variance 1
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 861fb00e44f55a5b, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -2807,7 +2807,7 @@ impl LightKernelLineNodesInputs {
 // solid angle per area of slopes, for light that is scattered in a volume, and with the cosine of a plane that faces the viewer
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 7c43e157699581a3, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -2896,7 +2896,7 @@ impl LightKernelPerSlopeInputs {
 // share of a normal distribution below z deviations
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 211d9137462cf6be, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -3025,7 +3025,7 @@ impl LightKernelNormalCdfInputs {
 // deviations below which a normal distribution has a share p
 // Source: Patel, ?olt?szov?, Nordbotten, Bruckner: Instant Convolution Shadows for Volumetric Detail Mapping (ACM TOG 32(5), 2013), sections 3 and 4.1, appendix A; walks that return: Spitzer, Trans. AMS 82 (1956), and Chang and Peres, Ann. Probab. 25 (1997); splitting is our own
 // Table:  meaning 1 5b764f4302814c51, 1 cases
-// Inputs: fnv1a a7742a58faf4fa37, of texts, weights and options
+// Inputs: fnv1a cbd8406b33a8d659, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
