@@ -141,7 +141,7 @@ mod tests {
         let all = table.programs().expect("built in").iter().flat_map(|program| &program.inputs);
         let found = all.filter(|of| of.name == input).find_map(|of| match &of.domain {
             Domain::Discrete(levels) => Some(levels.names.clone()),
-            Domain::Continuous { .. } => None,
+            Domain::Continuous { .. } | Domain::Word => None,
         });
         found.unwrap_or_else(|| panic!("no input `{input}`"))
     }
