@@ -32,7 +32,7 @@ macro_rules! built_in {
 }
 
 built_in! {
-    ["shade_g20.csv"]
+    ["shade_g20.csv", "noise_permutation.csv"]
     /// Silhouette revectorisation.
     SMSR = "smsr";
     /// Revectorised soft silhouettes.
@@ -65,6 +65,8 @@ built_in! {
     LIGHT_KERNEL = "light_kernel";
     /// Light in a slab of matter.
     SHADE = "shade";
+    /// Random numbers.
+    PCG = "pcg";
     /// Patterns of space.
     NOISE = "noise";
 }

@@ -31,7 +31,7 @@ impl Function {
                 let value = given.iter().find(|(name, _)| *name == input.name).map(|(_, value)| *value);
                 value
                     .map(|value| match &input.domain {
-                        Domain::Continuous { .. } => Value::Number(value),
+                        Domain::Continuous { .. } | Domain::Word => Value::Number(value),
                         Domain::Discrete(_) => input.parse(&value.to_string()).unwrap(),
                     })
                     .or(input.default)
@@ -41,6 +41,7 @@ impl Function {
         let number = |reading: Reading<'_>| match reading {
             Reading::Number(number) => number,
             Reading::Bool(holds) => f64::from(holds),
+            Reading::Int(whole) => whole as f64,
             other => panic!("{other:?}"),
         };
         match self.0.output.read(&values) {
@@ -269,4 +270,49 @@ fn light_on_slopes_is_the_same_by_both_forms_and_falls_with_the_root_of_the_thic
     let beside =
         |e: f64| slope.number(&[("c", 2.0), ("mu_n", 0.0), ("sigma_n", 1.0), ("e", e), ("d1", 1.0)], "iterated");
     assert!((beside(1.0 - 1e-12) - beside(1.0 + 1e-12)).abs() < 1e-12);
+}
+
+/// Noise against the published algorithm, played through with the permutation as it is printed.
+#[test]
+fn noise_is_that_of_its_permutation() {
+    let text = std::fs::read_to_string("tables/noise_permutation.csv").unwrap();
+    let words: Vec<u32> =
+        text.lines().filter(|line| !line.starts_with('#')).map(|line| line.parse().unwrap()).collect();
+    let permutation: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+    let mut sorted = permutation.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, (0..=255).collect::<Vec<u8>>());
+    let permuted = |i: i64| i64::from(permutation[i.rem_euclid(256) as usize]);
+    let fade = |t: f64| t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
+    let slope = |hash: i64, [x, y, z]: [f64; 3]| {
+        let h = hash & 15;
+        let u = if h < 8 { x } else { y };
+        let v = if h < 4 {
+            y
+        } else if h == 12 || h == 14 {
+            x
+        } else {
+            z
+        };
+        (if h & 1 == 0 { u } else { -u }) + (if h & 2 == 0 { v } else { -v })
+    };
+    let expected = |p: [f64; 3]| {
+        let cell = p.map(|c| c.floor() as i64);
+        let f = p.map(|c| c - c.floor());
+        let mut sum = 0.0;
+        for corner in 0..8_i64 {
+            let at = [corner & 1, corner >> 1 & 1, corner >> 2];
+            let hash = permuted(permuted(permuted(cell[0] + at[0]) + cell[1] + at[1]) + cell[2] + at[2]);
+            let away = [0, 1, 2].map(|i| f[i] - at[i] as f64);
+            let weight: f64 = (0..3).map(|i| if at[i] == 1 { fade(f[i]) } else { 1.0 - fade(f[i]) }).product();
+            sum += weight * slope(hash, away);
+        }
+        sum
+    };
+    let noise = Function::of("noise", "perlin3");
+    for i in 0..500 {
+        let p = [0.731, 1.177, 2.319].map(|step| (f64::from(i) * step * 7.3).rem_euclid(600.0) - 300.0);
+        let got = noise.number(&[("px", p[0]), ("py", p[1]), ("pz", p[2])], "value");
+        assert!((got - expected(p)).abs() < 1e-12, "{p:?}: {got} {}", expected(p));
+    }
 }
