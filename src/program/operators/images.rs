@@ -184,7 +184,7 @@ pub(super) fn word_product(a: Bounds, b: Bounds) -> Bounded {
 pub(super) fn word_quotient(a: Bounds, b: Bounds) -> Bounded {
     match b.0 > 0.0 {
         true => wrapped(a, b, ((a.0 / b.1).floor(), (a.1 / b.0).floor())),
-        false => wrapped(a, b, (0.0, a.1)),
+        false => on_bits(a, b, super::words::quotient, || (0.0, a.1)),
     }
 }
 
