@@ -40,6 +40,8 @@ pub mod explain;
 pub mod format;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(feature = "cli")]
+pub mod lsp;
 #[cfg(feature = "report")]
 pub mod picture;
 pub mod plan;
@@ -62,6 +64,7 @@ pub mod text;
 #[cfg(all(feature = "gpu", feature = "render"))]
 pub mod tune;
 pub mod tuned;
+pub mod uses;
 
 /// The Rust in documents, compiled like the examples of this crate. That of `docs/build.md` and `docs/tutorial.md`
 /// needs what a build script makes, and is built and run by tests.

@@ -1,6 +1,7 @@
 //! Levels of findings: the one that a finding has by itself, the one that the
 //! user gives to its code, and cases that acknowledge it.
 
+use super::acknowledge::Text;
 use super::words;
 use crate::diag::codes::Kind;
 use crate::diag::{Code, Diagnostic, Severity, Spanned, codes};
@@ -81,6 +82,7 @@ pub struct Findings {
 /// said to acknowledge nothing.
 pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code], levels: &LintLevels) -> Findings {
     let mut findings = Findings::default();
+    let text = Text::new(program);
     let allows: Vec<(Option<usize>, &Allow)> = program
         .rows
         .iter()
@@ -112,7 +114,7 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
                 let others: Vec<&Allow> = allows.iter().filter(of_code).map(|(_, allow)| *allow).collect();
                 // Nobody mends an exhibit, or acknowledges what is wrong with it.
                 findings.open.push(match program.exhibit {
-                    None => with_advice(finding, &others),
+                    None => with_advice(finding, &others, row, &text),
                     Some(_) => finding,
                 });
             }
@@ -120,7 +122,7 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
     }
     for ((row, allow), about) in allows.iter().zip(about) {
         if !left_out.iter().any(|code| code.0 == allow.code.value) {
-            findings.open.extend(questionable(program, *row, allow, about.as_deref()));
+            findings.open.extend(questionable(&text, program, *row, allow, about.as_deref()));
         }
     }
     levels.apply(&mut findings.open);
@@ -135,19 +137,22 @@ fn unnamed<'f>(allow: &Allow, finding: &'f Diagnostic) -> Vec<&'f str> {
 }
 
 /// A finding with the `allow` that would acknowledge it; `others` are those of its place and code that do not.
-fn with_advice(finding: Diagnostic, others: &[&Allow]) -> Diagnostic {
+fn with_advice(finding: Diagnostic, others: &[&Allow], row: Option<usize>, text: &Text<'_>) -> Diagnostic {
     if finding.severity == Severity::Error || finding.about.is_empty() {
         return finding;
     }
-    match others.iter().map(|allow| unnamed(allow, &finding)).min_by_key(Vec::len) {
-        Some(new) => {
-            let new = format!("new is {}; if that stays as well, add it to `with`: {}", quoted(&new), listed(&new));
-            finding.help(new)
+    let owned = |things: Vec<&str>| things.into_iter().map(str::to_owned).collect::<Vec<_>>();
+    let new = others.iter().map(|allow| (*allow, owned(unnamed(allow, &finding))));
+    match new.min_by_key(|(_, new)| new.len()) {
+        Some((allow, new)) => {
+            let new: Vec<&str> = new.iter().map(String::as_str).collect();
+            let help = format!("new is {}; if that stays as well, add it to `with`: {}", quoted(&new), listed(&new));
+            text.offer_more(finding.help(help), allow, &new)
         }
         None => {
             let about: Vec<&str> = finding.about.iter().map(String::as_str).collect();
             let allow = format!("(code: \"{}\", with: {}, reason: \"...\")", finding.code, listed(&about));
-            finding.help(format!("if it is understood and stays: allow: [{allow}]"))
+            text.offer(finding.help(format!("if it is understood and stays: allow: [{allow}]")), row, &allow)
         }
     }
 }
@@ -164,9 +169,15 @@ fn quoted(things: &[&str]) -> String {
 
 /// The finding about an `allow`: that it acknowledges nothing, names what is not there, or does not say what it
 /// acknowledges. `about` is what the findings of its code and place are about, if there are any.
-fn questionable(program: &Program, row: Option<usize>, allow: &Allow, about: Option<&[String]>) -> Option<Diagnostic> {
+fn questionable(
+    text: &Text<'_>,
+    program: &Program,
+    row: Option<usize>,
+    allow: &Allow,
+    about: Option<&[String]>,
+) -> Option<Diagnostic> {
     let code = &allow.code.value;
-    let Some(about) = about else { return Some(unused(program, row, allow)) };
+    let Some(about) = about else { return Some(text.offer_without(unused(program, row, allow), row, allow)) };
     let Some(with) = &allow.with else {
         let mut things: Vec<&str> = Vec::new();
         for thing in about {
@@ -176,9 +187,10 @@ fn questionable(program: &Program, row: Option<usize>, allow: &Allow, about: Opt
         }
         let message = format!("this `allow` acknowledges every finding of {code} here, also new ones");
         return (!things.is_empty()).then(|| {
-            Diagnostic::note(codes::WIDE_ALLOW, message)
+            let note = Diagnostic::note(codes::WIDE_ALLOW, message)
                 .at(allow.span, "")
-                .help(format!("to acknowledge those that there are: with: {}", listed(&things)))
+                .help(format!("to acknowledge those that there are: with: {}", listed(&things)));
+            text.offer_with(note, allow, &listed(&things))
         });
     };
     let gone = with.iter().filter(|thing| !about.contains(&thing.value));
@@ -186,11 +198,10 @@ fn questionable(program: &Program, row: Option<usize>, allow: &Allow, about: Opt
     let first = gone.first()?;
     let things: Vec<&str> = gone.iter().map(|thing| thing.value.as_str()).collect();
     let message = format!("nothing to acknowledge for {} of `{code}`", quoted(&things));
-    Some(
-        Diagnostic::warning(codes::UNUSED_ALLOW, message)
-            .at(first.span, "no finding here is about this")
-            .help("remove it, so that it hides nothing that is new"),
-    )
+    let warning = Diagnostic::warning(codes::UNUSED_ALLOW, message)
+        .at(first.span, "no finding here is about this")
+        .help("remove it, so that it hides nothing that is new");
+    Some(text.offer_fewer(warning, allow, first.span))
 }
 
 fn unused(program: &Program, row: Option<usize>, allow: &Allow) -> Diagnostic {

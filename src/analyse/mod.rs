@@ -8,6 +8,7 @@
 // A new operation, step or target must be thought of wherever one is told from another.
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod acknowledge;
 pub(crate) mod findings;
 mod lints;
 mod sets;
@@ -57,7 +58,22 @@ pub fn report(program: &Program, levels: &LintLevels) -> Findings {
     report_within(program, levels, STEPS)
 }
 
-/// The same, with so many steps for each analysis that may take long.
+/// Every finding about the programs of one table. What its functions have in common is said once.
+pub fn report_all(programs: &[Program], levels: &LintLevels) -> Findings {
+    let mut all = Findings::default();
+    for program in programs {
+        let found = report(program, levels);
+        for finding in found.open {
+            if !all.open.contains(&finding) {
+                all.open.push(finding);
+            }
+        }
+        all.acknowledged.extend(found.acknowledged);
+    }
+    all
+}
+
+/// The same as [`report`], with so many steps for each analysis that may take long.
 fn report_within(program: &Program, levels: &LintLevels, steps: u64) -> Findings {
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     // Codes of analyses that stopped somewhere, and said where.

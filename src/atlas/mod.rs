@@ -56,16 +56,26 @@ impl Atlas {
     /// ```
     pub fn new(program: &Program, shares: Option<&[f64]>) -> Result<Self, Failure> {
         let scale = values::Scale::of(program);
-        let panels = program.rows.iter().enumerate().map(|(index, row)| {
-            let share = shares.and_then(|shares| shares.get(index).copied());
-            let (body, height) = panel::draw(program, index, share, &scale)?;
-            Ok(Panel { id: row.id, body, height })
-        });
+        let panels = (0..program.rows.len()).map(|index| Panel::of(program, index, shares, &scale));
         Ok(Atlas { panels: panels.collect::<Result<_, Failure>>()? })
+    }
+
+    /// Draws one case, given as an index into [`Program::rows`], as it is drawn among all.
+    ///
+    /// # Errors
+    /// When its picture cannot be encoded.
+    pub fn panel(program: &Program, index: usize, shares: Option<&[f64]>) -> Result<Panel, Failure> {
+        Panel::of(program, index, shares, &values::Scale::of(program))
     }
 }
 
 impl Panel {
+    fn of(program: &Program, index: usize, shares: Option<&[f64]>, scale: &values::Scale) -> Result<Self, Failure> {
+        let share = shares.and_then(|shares| shares.get(index).copied());
+        let (body, height) = panel::draw(program, index, share, scale)?;
+        Ok(Panel { id: program.rows[index].id, body, height })
+    }
+
     /// The panel as an SVG document of its own.
     pub fn svg(&self) -> String {
         sheet::document(PANEL_WIDTH, self.height, &self.body)

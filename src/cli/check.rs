@@ -78,17 +78,7 @@ fn table(
         }
         return Ok(Outcome::Clean);
     };
-    let mut found = analyse::report(program, levels);
-    for further in &programs[1..] {
-        let more = analyse::report(further, levels);
-        // What the functions of a table have in common is said once.
-        for finding in more.open {
-            if !found.open.contains(&finding) {
-                found.open.push(finding);
-            }
-        }
-        found.acknowledged.extend(more.acknowledged);
-    }
+    let found = analyse::report_all(&programs, levels);
     if walked && program.exhibit.is_some() {
         if report.format == Format::Human {
             let count = plural(found.open.len(), "finding");

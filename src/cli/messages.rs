@@ -85,13 +85,21 @@ pub(super) fn acknowledged_lines(source: &Source, findings: &[(Diagnostic, Strin
 }
 
 fn object(source: &Source, diagnostic: &Diagnostic) -> Value {
+    let place = |span: diag::Span| {
+        let (line, column) = source.line_column(span.start);
+        let (end_line, end_column) = source.line_column(span.end);
+        json!({"line": line, "column": column, "end_line": end_line, "end_column": end_column})
+    };
     let label = |label: &diag::Label| {
-        let (line, column) = source.line_column(label.span.start);
-        let (end_line, end_column) = source.line_column(label.span.end);
-        json!({
-            "line": line, "column": column, "end_line": end_line, "end_column": end_column,
-            "message": label.message,
-        })
+        let mut place = place(label.span);
+        place["message"] = json!(label.message);
+        place
+    };
+    let repair = |repair: &diag::Repair| {
+        let mut place = place(repair.span);
+        place["title"] = json!(repair.title);
+        place["replacement"] = json!(repair.replacement);
+        place
     };
     json!({
         "code": diagnostic.code.0,
@@ -105,6 +113,7 @@ fn object(source: &Source, diagnostic: &Diagnostic) -> Value {
         "labels": diagnostic.labels.iter().map(label).collect::<Vec<_>>(),
         "notes": diagnostic.notes,
         "about": diagnostic.about,
+        "repairs": diagnostic.repairs.iter().map(repair).collect::<Vec<_>>(),
     })
 }
 
@@ -127,7 +136,7 @@ mod tests {
         let source = Source::new("tables/snow.ron", "Table(\n  cases: [\n        value: y");
         let message = Diagnostic::error(codes::UNKNOWN_NAME, "`y` is not defined")
             .at(Span::new(33, 34), "unknown name")
-            .help("did you mean `x`?");
+            .did_you_mean("y", "x");
         assert_eq!(object(&source, &message), expected);
     }
 }

@@ -22,6 +22,7 @@ mod fix;
 mod fmt;
 mod input;
 mod levels;
+mod lsp;
 mod messages;
 mod new;
 mod output;
@@ -127,6 +128,8 @@ enum Command {
     Tune(tune::Arguments),
     /// Lay out tables: columns aligned, expressions spaced
     Fmt(fmt::Arguments),
+    /// Talk to an editor over the Language Server Protocol, on standard input and output
+    Lsp(lsp::Arguments),
     /// Write a table to start from, and the build script that compiles it
     New(new::Arguments),
     /// Print a script that lets a shell complete command lines
@@ -226,6 +229,7 @@ pub fn main() -> ExitCode {
         #[cfg(feature = "gpu")]
         Command::Tune(arguments) => tune::run(&arguments, &report),
         Command::Fmt(arguments) => fmt::run(&arguments, &report),
+        Command::Lsp(arguments) => lsp::run(&arguments),
         Command::New(arguments) => new::run(&arguments, &report),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => completions::man(&arguments, &report),

@@ -40,6 +40,19 @@ pub struct Label {
     pub message: String,
 }
 
+/// A change of the text that mends what a diagnostic is about.
+///
+/// It is offered, never made unasked: whoever makes it looks at the whole table again.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Repair {
+    /// The change in words, without a full stop.
+    pub title: String,
+    /// The bytes that are replaced; empty where something is put in.
+    pub span: Span,
+    /// The text that takes their place.
+    pub replacement: String,
+}
+
 /// One thing to tell the user.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
@@ -56,6 +69,8 @@ pub struct Diagnostic {
     /// The subject of a finding, apart from its code and its first place: lines, cases, symmetries,
     /// sizes. An `allow` of a table names the same; with anything else it is another finding.
     pub about: Vec<String>,
+    /// Changes that would mend it, the likeliest first; mostly none.
+    pub repairs: Vec<Repair>,
 }
 
 impl Diagnostic {
@@ -75,7 +90,8 @@ impl Diagnostic {
     }
 
     fn new(severity: Severity, code: Code, message: impl Into<String>) -> Self {
-        Self { code, severity, message: message.into(), labels: Vec::new(), notes: Vec::new(), about: Vec::new() }
+        let (labels, notes, about, repairs) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { code, severity, message: message.into(), labels, notes, about, repairs }
     }
 
     /// Points at a place.
@@ -87,6 +103,25 @@ impl Diagnostic {
     /// Adds a line of help.
     pub fn help(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
+        self
+    }
+
+    /// Asks whether a misspelt word was meant to be another one. Where the first label is the word itself, in quotes
+    /// or without, that is a repair, too.
+    pub fn did_you_mean(self, word: &str, close: &str) -> Self {
+        let place = self.labels.first().map(|label| label.span);
+        let diagnostic = self.help(format!("did you mean `{close}`?"));
+        let span = match place {
+            Some(place) if place.end - place.start == word.len() => place,
+            Some(place) if place.end - place.start == word.len() + 2 => Span::new(place.start + 1, place.end - 1),
+            _ => return diagnostic,
+        };
+        diagnostic.mend(format!("write `{close}`"), span, close)
+    }
+
+    /// Offers a change of the text that mends it.
+    pub fn mend(mut self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
+        self.repairs.push(Repair { title: title.into(), span, replacement: replacement.into() });
         self
     }
 

@@ -73,13 +73,18 @@ impl Source {
 
     /// Line and column of a byte offset, both counted from 1, columns in characters.
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
+        let (line, before) = self.before(offset);
+        (line + 1, before.chars().count() + 1)
+    }
+
+    /// The line of a byte offset, counted from 0, and what stands in it before that.
+    pub(crate) fn before(&self, offset: usize) -> (usize, &str) {
         let mut offset = offset.min(self.text.len());
         while !self.text.is_char_boundary(offset) {
             offset -= 1;
         }
-        let line = self.lines.partition_point(|start| *start <= offset);
-        let start = self.lines[line - 1];
-        (line, self.text[start..offset].chars().count() + 1)
+        let line = self.lines.partition_point(|start| *start <= offset) - 1;
+        (line, &self.text[self.lines[line]..offset])
     }
 
     /// The line a byte offset is on, counted from 1.

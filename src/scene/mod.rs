@@ -120,7 +120,7 @@ impl Scene {
             let error = Diagnostic::error(codes::SCENE, format!("there is no scene `{name}`"));
             let known: Vec<&str> = Self::names().collect();
             let error = match nearest(name, known.iter().copied()) {
-                Some(close) => error.help(format!("did you mean `{close}`?")),
+                Some(close) => error.did_you_mean(name, close),
                 None => error,
             };
             let known = format!("the scenes are: {}; or give the path of a scene file (*.ron)", known.join(", "));

@@ -36,7 +36,7 @@ impl Claim {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-enum ClaimRon<'a> {
+pub(super) enum ClaimRon<'a> {
     Equal {
         #[serde(borrow)]
         left: Raw<'a>,

@@ -51,7 +51,7 @@ pub enum Draw {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-enum DrawRon<'a> {
+pub(super) enum DrawRon<'a> {
     Across,
     Down,
     Sides {

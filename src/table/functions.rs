@@ -126,7 +126,7 @@ pub struct Import {
 
 #[derive(Deserialize)]
 #[serde(rename = "Function", deny_unknown_fields)]
-struct FunctionRon<'a> {
+pub(super) struct FunctionRon<'a> {
     #[serde(default)]
     section: String,
     #[serde(default)]
@@ -155,7 +155,7 @@ struct FunctionRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(rename = "Limit", deny_unknown_fields)]
-struct LimitRon<'a> {
+pub(super) struct LimitRon<'a> {
     #[serde(borrow)]
     at: RawMap<'a>,
     value: Raw<'a>,
@@ -163,7 +163,7 @@ struct LimitRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(rename = "Error", deny_unknown_fields)]
-struct AccuracyRon<'a> {
+pub(super) struct AccuracyRon<'a> {
     #[serde(borrow)]
     times: Raw<'a>,
     scale: Raw<'a>,
@@ -171,7 +171,7 @@ struct AccuracyRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-enum DataRon<'a> {
+pub(super) enum DataRon<'a> {
     File(#[serde(borrow)] Raw<'a>),
     Levels { of: Raw<'a>, values: Vec<Raw<'a>> },
 }

@@ -10,6 +10,7 @@ mod claims;
 mod data;
 pub mod draw;
 pub mod expr;
+pub mod fields;
 mod functions;
 mod imports;
 pub(crate) mod lex;

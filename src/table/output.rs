@@ -180,7 +180,7 @@ impl<Set> Output<Set> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-enum OutputRon<'a> {
+pub(super) enum OutputRon<'a> {
     Number {
         #[serde(default)]
         clamp: Option<(f64, f64)>,

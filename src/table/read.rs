@@ -4,8 +4,8 @@
 //! rest. Independent parts (inputs, cases, …) are read one by one, so that a
 //! mistake in one does not hide the mistakes in the others.
 
-mod conditions;
-mod maps;
+pub(super) mod conditions;
+pub(super) mod maps;
 
 use serde::Deserialize;
 
@@ -22,7 +22,7 @@ type Result<T> = std::result::Result<T, Diagnostic>;
 
 #[derive(Deserialize)]
 #[serde(rename = "Table", deny_unknown_fields)]
-struct TableRon<'a> {
+pub(super) struct TableRon<'a> {
     #[serde(borrow)]
     language: Raw<'a>,
     name: Raw<'a>,
@@ -72,7 +72,7 @@ struct TableRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-enum InputRon<'a> {
+pub(super) enum InputRon<'a> {
     Levels {
         #[serde(borrow, default)]
         values: Option<RawMap<'a>>,
@@ -138,13 +138,13 @@ fn most() -> i64 {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct FetchedRon {
+pub(super) struct FetchedRon {
     cost: f64,
 }
 
 #[derive(Deserialize)]
 #[serde(rename = "Allow", deny_unknown_fields)]
-struct AllowRon<'a> {
+pub(super) struct AllowRon<'a> {
     #[serde(borrow)]
     code: Raw<'a>,
     #[serde(default)]
@@ -154,7 +154,7 @@ struct AllowRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(rename = "Case", deny_unknown_fields)]
-struct CaseRon<'a> {
+pub(super) struct CaseRon<'a> {
     #[serde(borrow)]
     id: Raw<'a>,
     #[serde(default)]
@@ -181,7 +181,7 @@ struct CaseRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(rename = "Erratum", deny_unknown_fields)]
-struct ErratumRon {
+pub(super) struct ErratumRon {
     no: u32,
     printed: String,
     meant: String,
@@ -189,7 +189,7 @@ struct ErratumRon {
 
 #[derive(Deserialize)]
 #[serde(rename = "Image", deny_unknown_fields)]
-struct ImageOfRon<'a> {
+pub(super) struct ImageOfRon<'a> {
     #[serde(borrow)]
     case: Raw<'a>,
     under: Raw<'a>,
@@ -296,7 +296,8 @@ pub(super) fn since(version: u32, language: &Spanned<u32>, span: Span, what: &st
     Err(Diagnostic::error(codes::LANGUAGE_VERSION, format!("{what} came with version {version} of the table language"))
         .at(span, format!("not in version {}", language.value))
         .at(language.span, "version of this table")
-        .help(format!("write `language: {version}`; whatever the table says already keeps its meaning")))
+        .help(format!("write `language: {version}`; whatever the table says already keeps its meaning"))
+        .mend(format!("write `language: {version}`"), language.span, version.to_string()))
 }
 
 struct Errors(Vec<Diagnostic>);

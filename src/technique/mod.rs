@@ -229,7 +229,7 @@ pub(crate) fn and(words: &[&str]) -> String {
 
 fn suggest<'a>(error: Diagnostic, name: &str, known: impl Iterator<Item = &'a str>) -> Diagnostic {
     match nearest(name, known) {
-        Some(close) => error.help(format!("did you mean `{close}`?")),
+        Some(close) => error.did_you_mean(name, close),
         None => error,
     }
 }

@@ -4,7 +4,6 @@
 
 pub(crate) mod closest;
 pub mod file;
-#[cfg(feature = "precise")]
 pub(crate) mod layout;
 pub(crate) mod raw;
 pub mod reach;

@@ -14,6 +14,7 @@ mod fix;
 mod functions;
 mod integrals;
 mod lists;
+mod lsp;
 mod render;
 mod report;
 mod stale;

@@ -3,4 +3,5 @@
 
 mod build_script;
 mod documents;
+mod editors;
 mod examples;

@@ -233,7 +233,7 @@ pub(super) fn column(program: &Program, name: &str, span: Span) -> Result<InputI
     let message = format!("`{}` is not an input of `{}`", shorten(name), program.name);
     let error = Diagnostic::error(codes::BAD_COLUMN, message).at(span, "not an input");
     Err(match nearest(name, program.inputs.iter().map(|i| i.name.as_str())) {
-        Some(close) => error.help(format!("did you mean `{close}`?")),
+        Some(close) => error.did_you_mean(name, close),
         None => error.help(describe_columns(program)),
     })
 }

@@ -126,7 +126,7 @@ impl Lowering<'_> {
         let error = Diagnostic::error(codes::CALL, format!("there is no function `{}`", function.value))
             .at(function.span, "unknown function");
         match nearest(&function.value, known()) {
-            Some(close) => error.help(format!("did you mean `{close}`?")),
+            Some(close) => error.did_you_mean(&function.value, close),
             None => error.help(format!("the functions are: {}", known().collect::<Vec<_>>().join(", "))),
         }
     }
@@ -139,7 +139,7 @@ pub(super) fn check_given(callee: &str, kind: &str, known: &[&str], given: &[(Sp
             let error = Diagnostic::error(codes::PARAMETER, format!("`{callee}` has no {kind} `{}`", name.value))
                 .at(name.span, format!("unknown {kind}"));
             return Err(match nearest(&name.value, known.iter().copied()) {
-                Some(close) => error.help(format!("did you mean `{close}`?")),
+                Some(close) => error.did_you_mean(&name.value, close),
                 None => error.help(format!("the {kind}s are: {}", known.join(", "))),
             });
         }

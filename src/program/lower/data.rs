@@ -158,7 +158,7 @@ impl<'t> Lowering<'t> {
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{written}` is not a list of constants"))
             .at(base.span, "only constant data is indexed");
         Err(match nearest(name, lists().map(|c| c.name.value.as_str())) {
-            Some(close) => error.help(format!("did you mean `{close}`?")),
+            Some(close) => error.did_you_mean(written, &written.replace(name, close)),
             None => error.help("declare a list: constants: {\"curve\": [0, 0.25, 1]}"),
         })
     }

@@ -527,7 +527,7 @@ impl<'t> Lowering<'t> {
             let message = format!("`{}` is not a list of constants", list.value);
             let error = Diagnostic::error(codes::UNKNOWN_NAME, message).at(list.span, "expected a list of `constants`");
             return Err(match nearest(name, lists()) {
-                Some(close) => error.help(format!("did you mean `{close}`?")),
+                Some(close) => error.did_you_mean(&list.value, &list.value.replace(name, close)),
                 None if lists().next().is_none() => {
                     error.help("declare one: constants: {\"nodes\": [(0.25, 1), (0.75, 1)]}")
                 }

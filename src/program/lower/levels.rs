@@ -241,7 +241,7 @@ impl Lowering<'_> {
         let error = Diagnostic::error(codes::UNKNOWN_LEVEL, format!("there is no level `{word}`"))
             .at(span, "not one of the levels here");
         let error = match nearest(word, levels.names.iter().map(String::as_str)) {
-            Some(close) => error.help(format!("did you mean `{close}`?")),
+            Some(close) => error.did_you_mean(word, close),
             None => error,
         };
         error.help(format!("the levels are: {}", levels.describe()))

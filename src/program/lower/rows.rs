@@ -138,7 +138,7 @@ impl<'t> Lowering<'t> {
             let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no symmetry `{}`", name.value))
                 .at(name.span, "not under `symmetries`");
             match nearest(&name.value, known) {
-                Some(close) => error.help(format!("did you mean `{close}`?")),
+                Some(close) => error.did_you_mean(&name.value, close),
                 None => error,
             }
         })

@@ -275,12 +275,16 @@ impl Lowering<'_> {
         if self.sets.iter().any(|set| set.names.iter().any(|n| n == name)) {
             let error = error.help(format!("`{name}` is a level: compare an input with it, as in `input == {name}`"));
             return match self.with_its_set(name).filter(|_| self.table.language.value >= 2) {
-                Some(typed) => error.help(format!("or say of which set it is, as in `{typed}`")),
+                Some(typed) => error.help(format!("or say of which set it is, as in `{typed}`")).mend(
+                    format!("write `{typed}`"),
+                    span,
+                    typed,
+                ),
                 None => error,
             };
         }
         match nearest(name, inputs().into_iter().chain(names).chain(locals)) {
-            Some(close) => error.help(format!("did you mean `{close}`?")),
+            Some(close) => error.did_you_mean(name, close),
             None if env.parameters.is_some() => error.help(format!("the parameters are: {}", inputs().join(", "))),
             None => error.help(format!("the inputs are: {}", inputs().join(", "))),
         }
@@ -292,9 +296,10 @@ impl Lowering<'_> {
             return fetch.needs_arguments(error.at(name.span, label));
         }
         let known = || self.inputs.iter().map(|i| i.name.as_str());
-        error.at(name.span, label).help(match nearest(&name.value, known()) {
-            Some(close) => format!("did you mean `{close}`?"),
-            None => format!("the inputs are: {}", known().collect::<Vec<_>>().join(", ")),
-        })
+        let error = error.at(name.span, label);
+        match nearest(&name.value, known()) {
+            Some(close) => error.did_you_mean(&name.value, close),
+            None => error.help(format!("the inputs are: {}", known().collect::<Vec<_>>().join(", "))),
+        }
     }
 }

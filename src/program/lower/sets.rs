@@ -45,7 +45,7 @@ impl<'t> Lowering<'t> {
         let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("there is no level set `{}`", name.value))
             .at(name.span, "neither under `levels` nor a discrete input declared above");
         Err(match nearest(&name.value, known) {
-            Some(close) => error.help(format!("did you mean `{close}`?")),
+            Some(close) => error.did_you_mean(&name.value, close),
             None => error,
         })
     }
@@ -87,7 +87,7 @@ impl<'t> Lowering<'t> {
                 let error = Diagnostic::error(codes::UNKNOWN_NAME, message)
                     .at(at, "neither under its `levels` nor one of its discrete inputs");
                 return Err(match nearest(name, known) {
-                    Some(close) => error.help(format!("did you mean `{close}`?")),
+                    Some(close) => error.did_you_mean(name, close),
                     None => error,
                 });
             }
@@ -111,7 +111,7 @@ impl<'t> Lowering<'t> {
                 let message = format!("nothing is imported as `{alias}`");
                 let error = Diagnostic::error(codes::UNKNOWN_NAME, message).at(at, "not under `imports`");
                 Err(match nearest(alias, known) {
-                    Some(close) => error.help(format!("did you mean `{close}`?")),
+                    Some(close) => error.did_you_mean(alias, close),
                     None => error.help(format!("import the table: imports: {{\"{alias}\": \"{alias}.ron\"}}")),
                 })
             }

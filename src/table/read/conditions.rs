@@ -9,7 +9,7 @@ use crate::table::parse::expression;
 use crate::text::raw::{Raw, RawMap, Reader, Shape};
 
 #[derive(Deserialize)]
-enum CombinedRon<'a> {
+pub(in crate::table) enum CombinedRon<'a> {
     #[serde(borrow)]
     All(Vec<Raw<'a>>),
     Any(Vec<Raw<'a>>),

@@ -8,7 +8,7 @@ use crate::text::raw::{Raw, RawMap, Reader, Shape};
 
 #[derive(Deserialize)]
 #[serde(rename = "Symmetry", deny_unknown_fields)]
-struct SymmetryRon<'a> {
+pub(in crate::table) struct SymmetryRon<'a> {
     #[serde(borrow)]
     map: RawMap<'a>,
     #[serde(default)]
@@ -19,7 +19,7 @@ struct SymmetryRon<'a> {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-enum ContinuityRon<'a> {
+pub(in crate::table) enum ContinuityRon<'a> {
     Border {
         #[serde(borrow)]
         when: Raw<'a>,
