@@ -232,8 +232,14 @@ pub fn table(program: &Program, options: &Options) -> Result<Built, Failure> {
         let path = |extension: &str| Path::new(&program.name).join(format!("{name}.{extension}"));
         let siblings = sibling_files(options, &name, shape.reads_buffer());
         for target in &options.targets {
-            let contents = emit::emit_all(std::slice::from_ref(&proved), *target, &siblings)?;
-            built.files.push(Artifact { path: path(target.extension()), contents });
+            match emit::emit_all(std::slice::from_ref(&proved), *target, &siblings) {
+                Ok(contents) => built.files.push(Artifact { path: path(target.extension()), contents }),
+                // What suits no such plan is had of the others.
+                Err(reason) if is_of_one_plan(&reason) => {
+                    built.skipped.push((format!("{name} as {}", target.name()), reason));
+                }
+                Err(failure) => return Err(failure),
+            }
         }
         if let Some(words) = emit::lookup_words(proved.plan()) {
             let contents = words.iter().flat_map(|word| word.to_le_bytes()).collect();

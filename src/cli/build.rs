@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     #[arg(long)]
     assume: bool,
     /// Languages: wgsl, glsl450, glsl330, glsl_es300, rust, spirv, hlsl, msl [default: these]; and wesl, naga_oil,
-    /// rust_bytemuck, rust_wgpu
+    /// rust_bytemuck, rust_wgpu; and, to count which lines of the table give the results, wgsl_counting, glsl450_counting
     #[arg(long, value_name = "TARGET", value_delimiter = ',', value_parser = parse_target)]
     target: Vec<Target>,
     /// Techniques whose WGSL around the table to write, too, to skeletons/NAME.wgsl: hard, pcf, smsr, rsmss, rpcf,

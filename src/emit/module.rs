@@ -21,11 +21,25 @@ use crate::prove::Proved;
 
 /// Writes the module of a plan.
 pub(super) fn write(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
+    write_with(proved, dialect, false)
+}
+
+/// Writes the module of a plan in which every result is counted by the host.
+pub(super) fn write_counting(proved: &Proved<'_>, dialect: &dyn Dialect) -> String {
+    write_with(proved, dialect, true)
+}
+
+/// The name of the host's function that counts.
+pub(super) fn hit(proved: &Proved<'_>) -> String {
+    format!("{}_hit", Prefix::new(&proved.plan().program.name).lower)
+}
+
+fn write_with(proved: &Proved<'_>, dialect: &dyn Dialect, counts: bool) -> String {
     let plan = proved.plan();
     let program = plan.program;
     let prefix = Prefix::new(&program.name);
     let names = Names::new(program);
-    let mut writer = Writer { plan, dialect, prefix, names, text: Text::default() };
+    let mut writer = Writer { plan, dialect, prefix, names, counts, text: Text::default() };
     write_header(&mut writer.text, proved, &writer.names);
     writer.declarations();
     if !plan.lookup.is_empty() {
@@ -41,6 +55,8 @@ struct Writer<'a, 'p> {
     dialect: &'a dyn Dialect,
     prefix: Prefix,
     names: Names,
+    /// True if results are counted.
+    counts: bool,
     text: Text,
 }
 
@@ -86,6 +102,17 @@ impl Writer<'_, '_> {
         let prologue = self.dialect.prologue(&self.prefix, &fetches(program));
         if !prologue.is_empty() {
             self.text.line(prologue);
+            self.text.gap();
+        }
+        if self.counts {
+            let count = self.plan.program.outcomes().len();
+            let (name, signature) =
+                (self.dialect.global_constant(&self.prefix, "HITS"), self.dialect.hit(&self.prefix));
+            self.text
+                .comment(&format!("Every result is counted: the host supplies `{signature}`, which is called with"));
+            self.text
+                .comment(&format!("a number below {count}: the place among the lines of all rows, the default last."));
+            self.text.line(self.dialect.constant(&name, count as u32));
             self.text.gap();
         }
         if self.names.sets.iter().any(|set| !set.constants.is_empty()) {
@@ -366,7 +393,10 @@ impl Writer<'_, '_> {
         let mut parameters = vec![("key".to_owned(), Type::UINT)];
         parameters.extend(self.continuous());
         parameters.extend(self.site());
-        let body = Body::new(self.plan, self.dialect, &self.prefix, &self.names);
+        let mut body = Body::new(self.plan, self.dialect, &self.prefix, &self.names);
+        if self.counts {
+            body.hits = self.plan.program.outcomes().into_iter().zip(0..).collect();
+        }
         self.text.line(body.decision(&name, &parameters));
     }
 

@@ -14,6 +14,7 @@ mod chart;
 mod count;
 mod file;
 mod fit;
+mod hits;
 mod summary;
 
 use std::collections::BTreeMap;
@@ -25,6 +26,7 @@ pub use chart::chart;
 pub use count::{Frame, TILE};
 pub use file::{read, to_ron};
 pub use fit::{Excluded, Fitted, fit};
+pub use hits::{Hits, lcov};
 pub use summary::{Change, Frequency, changes, frequencies, shares, total_variation};
 
 /// The frequencies of a table's states.

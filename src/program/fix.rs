@@ -122,7 +122,7 @@ impl Program {
             let error = Diagnostic::error(codes::UNKNOWN_NAME, format!("`{}` has no input `{name}`", self.name));
             let error = error.at(span, "unknown input");
             return Err(match nearest(name, known()) {
-                Some(close) => error.help(format!("did you mean `{close}`?")),
+                Some(close) => error.did_you_mean(name, close),
                 None => error.help(format!("the inputs are: {}", known().collect::<Vec<_>>().join(", "))),
             });
         };
@@ -242,6 +242,7 @@ impl Program {
             pool: way.into_pool(),
             rows,
             default,
+            default_span: self.default_span,
             output: self.output.clone(),
             assumptions,
             draw,

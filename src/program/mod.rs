@@ -32,6 +32,7 @@ mod meaning;
 pub(crate) mod normal;
 pub mod operators;
 mod ops;
+mod outcomes;
 mod output;
 mod pool;
 pub mod print;
@@ -58,6 +59,7 @@ pub use lower::{LevelTerm, Signature, signatures};
 pub use meaning::Kinship;
 pub use operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 pub use ops::Real;
+pub use outcomes::Outcome;
 pub use output::{Output, Reading};
 pub use pool::{Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool};
 pub(crate) use reachable::can_occur;
@@ -111,6 +113,8 @@ pub struct Program {
     pub rows: Vec<Row>,
     /// The result where no row, or no line of the taken row, applies.
     pub default: Vec<ExprId>,
+    /// The place of that.
+    pub default_span: Span,
     /// The kind of its result.
     pub output: Output,
     /// Conditions that hold on every state that occurs.

@@ -112,8 +112,30 @@ impl<'a> Reader<'a> {
             let start = start.min(end);
             // What is missing at the end of a line is shown there.
             let end = self.source.text[start..end].find('\n').map_or(end, |newline| start + newline);
-            describe(&error.code).at(Span::new(start, end), "here")
+            let diagnostic = describe(&error.code).at(Span::new(start, end), "here");
+            match &error.code {
+                ron::Error::NoSuchStructField { expected, found, .. } => {
+                    let close = nearest(found, expected.iter().copied()).zip(self.field(raw, end, found));
+                    match close {
+                        Some((close, place)) => diagnostic.mend(format!("write `{close}`"), place, close),
+                        None => diagnostic,
+                    }
+                }
+                _ => diagnostic,
+            }
         })
+    }
+
+    /// The last place at which a field of this name stands in a piece, up to a place in the source and the name there.
+    fn field(&self, raw: Raw<'a>, up_to: usize, name: &str) -> Option<Span> {
+        let base = self.span(raw).start;
+        let mut most = (up_to + name.len()).min(base + raw.0.len());
+        while !self.source.text.is_char_boundary(most) {
+            most -= 1;
+        }
+        let start = base + self.source.text.get(base..most)?.rfind(name)?;
+        let place = Span::new(start, start + name.len());
+        tokens::skip_blank(&self.source.text[place.end..]).starts_with(':').then_some(place)
     }
 
     /// Reads a piece as `T` and keeps its place.

@@ -46,7 +46,7 @@ impl<'t> Finder<'t> {
         match &input.domain.value {
             Domain::Levels(_) => self.inputs.get(input.name.value.as_str()).copied(),
             Domain::LevelsOf(name) => self.set_named(&name.value, steps.checked_sub(1)?),
-            Domain::Bool | Domain::Int(..) | Domain::Range(..) => None,
+            Domain::Bool | Domain::Int(..) | Domain::U32 | Domain::Range(..) => None,
         }
     }
 
@@ -121,7 +121,7 @@ impl<'t> Finder<'t> {
         }
         let levels = sets.or_else(|| match input.map(|input| &input.domain.value) {
             Some(Domain::Levels(levels)) => Some(levels),
-            Some(Domain::LevelsOf(_) | Domain::Bool | Domain::Int(..) | Domain::Range(..)) | None => None,
+            Some(Domain::LevelsOf(_) | Domain::Bool | Domain::Int(..) | Domain::U32 | Domain::Range(..)) | None => None,
         });
         for level in levels.into_iter().flatten() {
             let inner = SymbolId(self.symbols.len());
@@ -196,6 +196,7 @@ impl<'t> Finder<'t> {
             | Output::Vector(..)
             | Output::Bool
             | Output::Int(..)
+            | Output::U32
             | Output::Record(_)
             | Output::List { .. } => None,
         }
@@ -206,7 +207,12 @@ impl<'t> Finder<'t> {
         match output {
             Output::Enumeration(set) => self.set_named(&set.value, LONGEST),
             Output::List { of, .. } => self.set_of_output(of),
-            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::Record(_) => None,
+            Output::Number(_)
+            | Output::Vector(..)
+            | Output::Bool
+            | Output::Int(..)
+            | Output::U32
+            | Output::Record(_) => None,
         }
     }
 
@@ -250,6 +256,6 @@ fn own_set<'t>(table: &'t Table, name: &str, steps: usize) -> Option<Declared<'t
     match &input.domain.value {
         Domain::Levels(_) => Some((table, &input.name)),
         Domain::LevelsOf(of) => own_set(table, &of.value, steps),
-        Domain::Bool | Domain::Int(..) | Domain::Range(..) => None,
+        Domain::Bool | Domain::Int(..) | Domain::U32 | Domain::Range(..) => None,
     }
 }

@@ -259,7 +259,7 @@ impl<'t> Finder<'t> {
             }
             Output::List { of, .. } => self.mention_output(of),
             Output::Record(fields) => fields.iter().for_each(|(_, of)| self.mention_output(of)),
-            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) => {}
+            Output::Number(_) | Output::Vector(..) | Output::Bool | Output::Int(..) | Output::U32 => {}
         }
     }
 

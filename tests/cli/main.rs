@@ -6,6 +6,7 @@ mod atlas;
 mod bad_input;
 mod certificates;
 mod constructs;
+mod coverage;
 mod eval;
 mod explain;
 mod files;

@@ -6,9 +6,11 @@ use image::RgbaImage;
 use umbrage::scene::Scene;
 use umbrage::text::file;
 
+use crate::feedback::CASES;
 use crate::gpu::Gpu;
 use crate::panel;
 use crate::renderer::Renderer;
+use crate::shaders::Table;
 use crate::view::View;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -21,6 +23,7 @@ pub(crate) fn write(
     table: Option<&Path>,
     view: &View,
     size: [u32; 2],
+    hits: Option<&Path>,
 ) -> Result<(), String> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let gpu = Gpu::open(&instance, None)?;
@@ -57,12 +60,29 @@ pub(crate) fn write(
     written.map_err(|error| format!("error: {} cannot be written: {error}", file::shown(path)))?;
     file::write(path, png.get_ref()).map_err(|failure| failure.to_string())?;
     println!("{}: {}", path.display(), panel::title(view, &renderer, feedback.as_ref()));
+    if let Some(path) = hits {
+        count(&mut renderer, view, &output, path)?;
+    }
     if view.cases
         && let Some(feedback) = feedback
     {
         panel::legend(view, &renderer, &feedback.counts).iter().for_each(|entry| println!("{entry}"));
     }
     Ok(())
+}
+
+/// Renders once more, by the table that counts, and writes how often each of its lines gave a result.
+fn count(renderer: &mut Renderer, view: &View, output: &wgpu::TextureView, path: &Path) -> Result<(), String> {
+    let Some(lines) = renderer.tables.of(view.technique).and_then(Table::lines).filter(|lines| *lines <= CASES) else {
+        return Err(format!("error: {} has no table, or one of more than {CASES} lines", view.technique));
+    };
+    let mut view = *view;
+    view.hits = true;
+    renderer.render(&view, output)?;
+    let feedback = renderer.collector.take(&renderer.gpu, wgpu::PollType::wait_indefinitely());
+    let counts = feedback.ok_or("error: the counts were lost")?.counts;
+    let text: String = counts[..lines].iter().map(|count| format!("{count}\n")).collect();
+    file::write(path, text.as_bytes()).map_err(|failure| failure.to_string())
 }
 
 /// The pixels of a texture.

@@ -47,6 +47,9 @@ struct Arguments {
     /// Write one picture to this file (PNG) instead of opening a window
     #[arg(long, value_name = "FILE")]
     headless: Option<PathBuf>,
+    /// With --headless, also write how often each line of the table gave a result, for `umbrage profile --hits`
+    #[arg(long, value_name = "FILE", requires = "headless")]
+    hits: Option<PathBuf>,
     /// The scene: one that comes with Umbrage, or a file
     #[arg(long, value_name = "SCENE", default_value = "fence")]
     scene: String,
@@ -88,7 +91,10 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     (view.technique, view.plan, view.cases) = (arguments.technique, arguments.plan, arguments.cases);
     let table = arguments.table.as_deref();
     match &arguments.headless {
-        Some(path) => headless::write(path, &scene, arguments.shadow_map, table, &view, arguments.size),
+        Some(path) => {
+            let hits = arguments.hits.as_deref();
+            headless::write(path, &scene, arguments.shadow_map, table, &view, arguments.size, hits)
+        }
         None => window::show(&scene, arguments.shadow_map, table, view, arguments.size),
     }
 }

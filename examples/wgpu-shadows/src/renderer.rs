@@ -27,7 +27,27 @@ const SEEN: [wgpu::TextureFormat; 3] =
     [wgpu::TextureFormat::Rgba32Float, wgpu::TextureFormat::Rg32Float, wgpu::TextureFormat::Rgba16Float];
 
 /// A last pass is made for each of these.
-type Key = (Variant, usize, bool);
+type Key = (Variant, usize, Counted);
+
+/// What the last pass counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Counted {
+    Nothing,
+    /// Pixels by case, which it shows.
+    Cases,
+    /// Results by line of the table.
+    Hits,
+}
+
+impl Counted {
+    fn of(view: &View) -> Self {
+        match (view.hits, view.cases) {
+            (true, _) => Counted::Hits,
+            (false, true) => Counted::Cases,
+            (false, false) => Counted::Nothing,
+        }
+    }
+}
 
 /// A scene on a device.
 pub(crate) struct Renderer {
@@ -173,7 +193,7 @@ impl Renderer {
     /// Takes the table in a file. If that fails, everything stays as it is.
     pub(crate) fn take_table(&mut self, path: &Path, view: &View) -> Result<String, String> {
         let (tables, name) = self.tables.with(path)?;
-        let key = (view.technique, tables.suitable(view.technique, view.plan), view.cases);
+        let key = (view.technique, tables.suitable(view.technique, view.plan), Counted::of(view));
         if view.technique.table().is_some_and(|table| table.name == name) {
             // Only now it is known whether it fits the search.
             let pipeline = self.light_pass(&tables, key)?;
@@ -187,7 +207,7 @@ impl Renderer {
 
     /// Renders a view into a target. Feedback about it arrives later, at [`Collector::take`].
     pub(crate) fn render(&mut self, view: &View, target: &wgpu::TextureView) -> Result<(), String> {
-        let key = (view.technique, self.tables.suitable(view.technique, view.plan), view.cases);
+        let key = (view.technique, self.tables.suitable(view.technique, view.plan), Counted::of(view));
         if !self.light_passes.contains_key(&key) {
             let pipeline = self.light_pass(&self.tables, key)?;
             self.light_passes.insert(key, pipeline);
@@ -250,8 +270,8 @@ impl Renderer {
     }
 
     /// The last pass with a technique and a plan of its table.
-    fn light_pass(&self, tables: &Tables, (technique, plan, cases): Key) -> Result<wgpu::RenderPipeline, String> {
-        let text = tables.text(technique, plan);
+    fn light_pass(&self, tables: &Tables, (technique, plan, counted): Key) -> Result<wgpu::RenderPipeline, String> {
+        let text = tables.text(technique, plan, counted == Counted::Hits);
         let device = &self.gpu.device;
         let name = format!("{technique}, {}", PLANS[plan].name());
         let label = Some(name.as_str());
@@ -263,7 +283,7 @@ impl Renderer {
                 bind_group_layouts: &[Some(&self.groups[0]), Some(&self.groups[1])],
                 immediate_size: 0,
             });
-            let constants = [("CASES", f64::from(u8::from(cases)))];
+            let constants = [("CASES", f64::from(u8::from(counted == Counted::Cases)))];
             let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
             device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label,

@@ -34,12 +34,16 @@ macro_rules! skeleton {
 }
 
 const LIGHT: &str = include_str!("wgsl/light.wgsl");
+/// What a table that counts asks of its host, `TABLE` standing for its name.
+const HITS: &str = include_str!("wgsl/hits.wgsl");
 
 /// A table, in all plans.
 #[derive(Debug, Clone)]
 pub(crate) struct Table {
     /// Its WGSL by plan, for the plans that suit it. The first one suits every table.
     modules: [Option<String>; PLANS.len()],
+    /// The first plan as WGSL that counts which line gives each result.
+    counting: String,
     /// What its cases are called.
     pub(crate) cases: BTreeMap<u32, String>,
     /// Whether it was read while the program runs.
@@ -47,9 +51,16 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    fn built(modules: [Option<&str>; PLANS.len()], cases: &[(u32, &str)]) -> Self {
+    fn built(modules: [Option<&str>; PLANS.len()], counting: &str, cases: &[(u32, &str)]) -> Self {
         let cases = cases.iter().map(|(id, name)| (*id, (*name).to_owned())).collect();
-        Self { modules: modules.map(|text| text.map(str::to_owned)), cases, reloaded: false }
+        let modules = modules.map(|text| text.map(str::to_owned));
+        Self { modules, counting: counting.to_owned(), cases, reloaded: false }
+    }
+
+    /// The number of its lines, as its text says.
+    pub(crate) fn lines(&self) -> Option<usize> {
+        let (_, rest) = self.counting.split_once("_HITS: u32 = ")?;
+        rest.split_once("u;")?.0.parse().ok()
     }
 
     /// Whether a plan suits it.
@@ -61,21 +72,22 @@ impl Table {
     ///
     /// Also returns the table's name; the error is all that is wrong, as it is meant to be read.
     fn compile(path: &Path) -> Result<(String, Self), String> {
-        let options =
-            Options { shapes: PLANS.to_vec(), targets: vec![Target::Wgsl], auto: false, ..Options::default() };
+        let targets = vec![Target::Wgsl, Target::WgslCounting];
+        let options = Options { shapes: PLANS.to_vec(), targets, auto: false, ..Options::default() };
         let batch = build::run(&Request { paths: vec![path.to_owned()], options, ..Request::default() });
         let (false, Some((programs, built))) = (batch.failed(), batch.tables.first()) else {
             let messages: Vec<String> = batch.messages.iter().map(ToString::to_string).collect();
             return Err(messages.join("\n"));
         };
-        let module = |plan: Shape| {
-            let path = Path::new(&built.table).join(plan.name()).with_extension("wgsl");
+        let module = |plan: Shape, target: Target| {
+            let path = Path::new(&built.table).join(format!("{plan}.{}", target.extension()));
             let file = built.files.iter().find(|file| file.path == path)?;
             Some(String::from_utf8_lossy(&file.contents).into_owned())
         };
         let rows = programs.iter().flat_map(|program| &program.rows);
         let cases = rows.map(|row| (row.id, row.doc.clone())).collect();
-        let table = Self { modules: PLANS.map(module), cases, reloaded: true };
+        let counting = module(PLANS[0], Target::WgslCounting).unwrap_or_default();
+        let table = Self { modules: PLANS.map(|plan| module(plan, Target::Wgsl)), counting, cases, reloaded: true };
         Ok((built.table.clone(), table))
     }
 }
@@ -102,8 +114,9 @@ impl Tables {
             compiled!("smsr", "switch"),
             compiled!("smsr", "tree"),
         ];
-        let rsmss = Table::built(rsmss, &built::rsmss::RSMSS_CASES);
-        let smsr = Table::built(smsr, &built::smsr::SMSR_CASES);
+        let counting = |table: Option<&'static str>| table.unwrap_or_default();
+        let rsmss = Table::built(rsmss, counting(compiled!("rsmss", "ladder.counting")), &built::rsmss::RSMSS_CASES);
+        let smsr = Table::built(smsr, counting(compiled!("smsr", "ladder.counting")), &built::smsr::SMSR_CASES);
         Self(BTreeMap::from([("rsmss".to_owned(), rsmss), ("smsr".to_owned(), smsr)]))
     }
 
@@ -129,8 +142,14 @@ impl Tables {
     }
 
     /// The WGSL of the last pass.
-    pub(crate) fn text(&self, technique: Variant, plan: usize) -> String {
-        let table = self.of(technique).and_then(|table| table.modules[plan].as_deref()).unwrap_or_default();
+    pub(crate) fn text(&self, technique: Variant, plan: usize, hits: bool) -> String {
+        let table = self.of(technique);
+        let host = match technique.table().filter(|_| hits) {
+            Some(table) => HITS.replace("TABLE", table.name),
+            None => String::new(),
+        };
+        let module = |table: &Table| if hits { Some(table.counting.clone()) } else { table.modules[plan].clone() };
+        let table = table.and_then(module).unwrap_or_default();
         let skeleton = match technique {
             Variant::Hard => skeleton!("hard"),
             Variant::Smsr => skeleton!("smsr"),
@@ -138,7 +157,7 @@ impl Tables {
             Variant::Rpcf => skeleton!("rpcf"),
             _ => skeleton!("pcf"),
         };
-        [skeleton, table, LIGHT].concat()
+        [skeleton, &table, LIGHT, &host].concat()
     }
 }
 
@@ -192,10 +211,12 @@ mod tests {
             let (built, read) = (&built.0[name], &read.0[name]);
             assert_eq!(built.cases, read.cases);
             assert!(read.reloaded && !built.reloaded);
+            assert!(built.counting.contains(&format!("{name}_hit(0u);")), "{name} counts");
             // The header names the options, which are others.
             let body = |text: &Option<String>| {
                 text.as_deref().and_then(|text| text.split_once("\n\n")).map(|(_, body)| body.to_owned())
             };
+            assert_eq!(body(&Some(built.counting.clone())), body(&Some(read.counting.clone())));
             for (plan, (built, read)) in PLANS.iter().zip(built.modules.iter().zip(&read.modules)) {
                 assert!(body(built) == body(read), "{name}, {}", plan.name());
             }
@@ -205,7 +226,8 @@ mod tests {
     #[test]
     fn only_techniques_with_a_table_search() {
         for technique in TECHNIQUES {
-            let text = Tables::built().text(technique, 0);
+            let text = Tables::built().text(technique, 0, false);
+            assert!(!text.contains("_hit("), "{technique} counts unasked");
             assert_eq!(text.contains("fn table_key"), technique.table().is_some(), "{technique}");
         }
     }

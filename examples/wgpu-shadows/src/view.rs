@@ -24,6 +24,8 @@ pub(crate) struct View {
     pub(crate) plan: usize,
     /// Whether cases are shown in colours.
     pub(crate) cases: bool,
+    /// Whether lines of the table are counted, by its first plan. Cases are not shown then.
+    pub(crate) hits: bool,
 }
 
 impl View {
@@ -39,6 +41,7 @@ impl View {
             technique: Variant::Rsmss,
             plan: 0,
             cases: false,
+            hits: false,
         }
     }
 

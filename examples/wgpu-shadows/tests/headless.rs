@@ -91,6 +91,33 @@ fn pictures_are_those_of_the_reference() {
     }
 }
 
+/// The lines that were counted are those of the cases that were seen.
+#[test]
+fn lines_of_the_table_are_counted() {
+    let place = tempfile::tempdir().unwrap();
+    let Some((_, said)) = picture(place.path(), "--cases --hits hits.txt") else { return };
+    let program = umbrage::program::Program::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tables/rsmss.ron"));
+    let program = program.unwrap_or_else(|error| panic!("{error}"));
+    let text = std::fs::read_to_string(place.path().join("hits.txt")).unwrap();
+    let counts: Vec<u64> = text.lines().map(|line| line.parse().unwrap()).collect();
+    let hits = umbrage::profile::Hits::of_counts(&program, "fence", &counts).unwrap();
+    let mut all = 0;
+    for line in said.lines().skip(1) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let (case, pixels) = match words.as_slice() {
+            ["case", case, pixels, ..] => (Some(case.parse().unwrap()), pixels),
+            ["default", pixels, ..] => (None, pixels),
+            _ => panic!("{line}"),
+        };
+        let pixels: u64 = pixels.parse().unwrap();
+        assert_eq!(hits.of_case(&program, case), pixels, "{line}");
+        all += pixels;
+    }
+    assert!(all > 500, "{said}");
+    let refused = run(place.path(), "--headless out.png --technique pcf --hits hits.txt");
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("pcf has no table"));
+}
+
 #[test]
 fn a_table_that_was_edited() {
     let place = tempfile::tempdir().unwrap();

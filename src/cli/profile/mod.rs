@@ -1,6 +1,7 @@
 //! `umbrage profile`: counts how often each state of a table occurs.
 
 mod compare;
+mod counted;
 mod scenes;
 mod show;
 
@@ -10,10 +11,11 @@ use std::path::{Path, PathBuf};
 
 use super::args::{Machine, SettingArguments, TechniqueArgument, parse_map, parse_size, technique_parser};
 use super::messages::Report;
-use super::output::Sink;
+use super::output::{Sink, finish_all};
 use super::{Outcome, Result, input};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::profile::{self, Fitted, Profile, Scene};
+use crate::eval::Missing;
+use crate::profile::{self, Fitted, Hits, Profile, Scene};
 use crate::program::Program;
 use crate::text::file::shown;
 
@@ -61,9 +63,16 @@ struct Count {
     /// Captured inputs to count: *.bin, or CSV or *.json as `eval` reads it; each is a scene of its own
     #[arg(long, value_name = "FILE", value_delimiter = ',')]
     frames: Vec<PathBuf>,
-    /// The file for the profile; `-` is standard output
-    #[arg(long, short, default_value = "-", value_name = "FILE")]
-    output: PathBuf,
+    /// Counts that a shader of your own has made with the target `wgsl_counting`: *.bin, 32 bits each, or a text of
+    /// numbers; each file is a scene of its own. They make no profile, for they know no states; they go with --lcov
+    #[arg(long, value_name = "FILE", value_delimiter = ',', conflicts_with_all = ["scene", "frames"], requires = "lcov")]
+    hits: Vec<PathBuf>,
+    /// Also write how often each row and line of the table gave the result, as LCOV, which `genhtml` reads
+    #[arg(long, value_name = "FILE")]
+    lcov: Option<PathBuf>,
+    /// The file for the profile; `-` is standard output [default: standard output, or none with --lcov]
+    #[arg(long, short, value_name = "FILE")]
+    output: Option<PathBuf>,
 }
 
 #[derive(clap::Args)]
@@ -91,39 +100,59 @@ pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
 
 fn count(arguments: &Count, report: &Report) -> Result<Outcome> {
     if !arguments.scene.is_empty() {
-        let (program, profile) = scenes::run(arguments, report)?;
-        return finish(&program, profile, &arguments.output, report);
+        let (program, profile, hits) = scenes::run(arguments, report)?;
+        return finish(&program, profile, &hits, arguments, report);
+    }
+    if let (Some(table), Some(lcov), false) = (&arguments.table, &arguments.lcov, arguments.hits.is_empty()) {
+        return counted::run(table, &arguments.hits, lcov);
     }
     let (Some(table), false) = (&arguments.table, arguments.frames.is_empty()) else {
         let error = Diagnostic::error(codes::NOT_APPLICABLE, "there is nothing to count")
             .help("name scenes: --scene fence,lattice --technique rsmss")
             .help("or a table and captured inputs: --table tables/rsmss.ron --frames frame.bin")
+            .help("or a table and what a shader counted: --table tables/rsmss.ron --hits frame.txt --lcov out.info")
             .help("or say what to do with profiles that exist: merge, show, diff");
         return Err(Failure::bare("", error).into());
     };
     let program = Program::read(table)?;
     let mut profile = Profile::new(&program);
+    let mut hits = Vec::new();
     for file in &arguments.frames {
         let columns = input::read_all(&program, file)?;
         let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let scene = Scene::of_columns(&program, &name, &columns).map_err(|missing| {
+        let missing = |missing: Missing| {
             let input = &program.inputs[missing.input.index()].name;
             let message = format!("row {} needs `{input}`, which is absent", missing.row + 1);
             let error = Diagnostic::error(codes::NEEDS_FETCH, message).help("capture the frame again");
             Failure::bare(shown(file), error)
-        })?;
-        profile.scenes.push(scene);
+        };
+        profile.scenes.push(Scene::of_columns(&program, &name, &columns).map_err(missing)?);
+        if arguments.lcov.is_some() {
+            hits.push(Hits::of_columns(&program, &name, &columns).map_err(missing)?);
+        }
     }
-    finish(&program, profile, &arguments.output, report)
+    finish(&program, profile, &hits, arguments, report)
 }
 
 /// Checks what was counted against the table's assumptions, and writes it.
-fn finish(program: &Program, profile: Profile, output: &Path, report: &Report) -> Result<Outcome> {
-    let fitted = profile::fit(program, profile, &shown(output))?;
+fn finish(program: &Program, profile: Profile, hits: &[Hits], arguments: &Count, report: &Report) -> Result<Outcome> {
+    let lcov = arguments.lcov.as_deref();
+    // Who asks for hits alone gets nothing else.
+    let output = arguments.output.as_deref().or_else(|| lcov.is_none().then_some(Path::new("-")));
+    let fitted = profile::fit(program, profile, &output.map(shown).unwrap_or_default())?;
     if excluded(program, &fitted, report) {
         return Ok(Outcome::Failed);
     }
-    write(&fitted.profile, output)?;
+    let [mut profile_sink, mut lcov_sink] = Sink::several([output, lcov])?;
+    if let Some(sink) = &mut profile_sink {
+        let text = profile::to_ron(&fitted.profile);
+        sink.write_all(text.as_bytes()).map_err(|error| sink.failure(&error))?;
+    }
+    if let Some(sink) = &mut lcov_sink {
+        let text = profile::lcov(program, hits);
+        sink.write_all(text.as_bytes()).map_err(|error| sink.failure(&error))?;
+    }
+    finish_all(profile_sink.into_iter().chain(lcov_sink))?;
     Ok(Outcome::Clean)
 }
 

@@ -9,7 +9,7 @@ use crate::emit::language::{Dialect, Prefix, Type, bare, value};
 use crate::emit::names::Names;
 use crate::emit::text::Text;
 use crate::plan::{Plan, Step, StepId};
-use crate::program::{CondId, Domain, InputId, InputSet, LevelKind, Scalar};
+use crate::program::{CondId, Domain, InputId, InputSet, LevelKind, Outcome, Scalar};
 
 /// Prints steps: one function, and before it those that it calls.
 pub(in crate::emit) struct Body<'a, 'p> {
@@ -34,6 +34,8 @@ pub(in crate::emit) struct Body<'a, 'p> {
     pub(in crate::emit) renamed: HashMap<String, String>,
     /// The name of the result in the result map of a symmetry.
     pub(in crate::emit) result: Vec<String>,
+    /// The numbers by which results are counted; none where they are not.
+    pub(in crate::emit) hits: HashMap<Outcome, u32>,
 }
 
 impl<'a, 'p> Body<'a, 'p> {
@@ -57,6 +59,7 @@ impl<'a, 'p> Body<'a, 'p> {
             temporaries: 0,
             renamed: HashMap::new(),
             result: Vec::new(),
+            hits: HashMap::new(),
         }
     }
 

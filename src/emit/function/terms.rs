@@ -5,7 +5,9 @@ use std::collections::{BTreeSet, HashMap};
 use super::body::Body;
 use crate::emit::language::{Type, bare, value};
 use crate::plan::Leaf;
-use crate::program::{BinaryOp, Comparison, Cond, CondId, DataType, ExprId, LevelSet, Node, Pool, Scalar, UnaryOp};
+use crate::program::{
+    BinaryOp, Comparison, Cond, CondId, DataType, ExprId, LevelSet, Node, Outcome, Pool, Scalar, UnaryOp,
+};
 
 /// Most choices of a result that are written where they stand; of more, those that stand in several places get a local.
 const MAX_REPEATED: u32 = 64;
@@ -54,6 +56,10 @@ impl Body<'_, '_> {
                 self.dialect.uint(row.id)
             }
         };
+        if let Some(number) = self.hits.get(&Outcome { row: leaf.row, line: leaf.line }) {
+            let call = format!("{}({});", self.dialect.global(self.prefix, "hit"), self.dialect.uint(*number));
+            self.text.line(call);
+        }
         let data = program.output.data_type();
         let components: Vec<(Scalar, ExprId)> =
             data.components().iter().map(|component| component.scalar).zip(leaf.values.iter().copied()).collect();

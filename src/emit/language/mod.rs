@@ -103,6 +103,10 @@ pub(super) trait Dialect {
     }
     /// The first lines of a file, after the comment.
     fn prologue(&self, prefix: &Prefix, fetches: &[Fetch]) -> String;
+    /// The first line of the host's function that counts results.
+    fn hit(&self, prefix: &Prefix) -> String {
+        format!("void {}(uint number)", self.global(prefix, "hit"))
+    }
     /// Functions that the language lacks, for a table that needs remainders.
     fn remainder(&self, _: &Prefix) -> String {
         String::new()

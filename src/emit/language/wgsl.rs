@@ -49,6 +49,10 @@ impl Dialect for Wgsl {
         out
     }
 
+    fn hit(&self, prefix: &Prefix) -> String {
+        format!("fn {}(number: u32)", self.global(prefix, "hit"))
+    }
+
     fn constant(&self, name: &str, value: u32) -> String {
         format!("const {name}: u32 = {value}u;")
     }

@@ -3,6 +3,7 @@
 //! A target is a new file here, which ends in a [`Definition`], and its line in the list below:
 //! the command line, build scripts, host modules, tests and documents go by that.
 
+mod counting;
 mod glsl;
 mod naga_oil;
 mod rust;
@@ -97,6 +98,10 @@ targets! {
     NagaOil = naga_oil::TARGET,
     /// A library for GLSL 450.
     Glsl450 = glsl::V450,
+    /// WGSL that counts which line of the table gives each result.
+    WgslCounting = counting::WGSL,
+    /// A library for GLSL 450 that counts them.
+    Glsl450Counting = counting::GLSL,
     /// A library for GLSL 330.
     Glsl330 = glsl::V330,
     /// A library for GLSL ES 300.

@@ -59,6 +59,7 @@ fn lowered(table: &Table, programs: Programs, cuts: &AllCuts) -> ((Option<Box<Cl
         pool: lowering.pool,
         rows: Vec::new(),
         default: vec![nothing],
+        default_span: table.name.span,
         assumptions: Vec::new(),
         draw: Vec::new(),
         symmetries: Vec::new(),

@@ -143,7 +143,7 @@ pub(in crate::program) fn no_function(table: &Table, name: Option<&str>) -> Fail
             let error =
                 Diagnostic::error(codes::NO_FUNCTION, format!("`{}` has no function `{name}`", table.name.value));
             match nearest(name, known.iter().copied()) {
-                Some(close) => error.help(format!("did you mean `{close}`?")),
+                Some(close) => error.did_you_mean(name, close),
                 None => error,
             }
             .help(listed)
@@ -188,7 +188,7 @@ fn one(
                     Diagnostic::error(codes::PARAMETER, format!("the parameter `{}` is not declared", name.value))
                         .at(name.span, "not under `inputs`");
                 errors.push(match nearest(&name.value, known()) {
-                    Some(close) => error.help(format!("did you mean `{close}`?")),
+                    Some(close) => error.did_you_mean(&name.value, close),
                     None => error.help("declare it: inputs: {\"x\": Range(from: 0, to: 1)}"),
                 });
                 return None;
@@ -324,6 +324,10 @@ impl<'t> Lowering<'t> {
             pool: std::mem::take(&mut self.pool),
             rows,
             default,
+            default_span: match &function.body {
+                FunctionBody::Value(value) => value.span,
+                FunctionBody::Cases { default, .. } => default.span,
+            },
             assumptions,
             draw: Vec::new(),
             symmetries: Vec::new(),

@@ -286,6 +286,7 @@ impl<'t> Lowering<'t> {
             pool: self.pool,
             rows,
             default,
+            default_span: table.default.span,
             assumptions,
             draw,
             symmetries,
