@@ -23,12 +23,7 @@ pub(super) fn resolve(table: Table, library: Library) -> Result<Table, Failure> 
 }
 
 /// Reads what a table at the end of a chain of imports imports, and counts the tables of the longest chain from it on.
-fn follow(
-    mut table: Table,
-    chain: &[PathBuf],
-    known: &mut Known,
-    library: Library,
-) -> Result<(Table, usize), Failure> {
+fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known, library: Library) -> Result<(Table, usize), Failure> {
     let source = table.source.clone();
     for constant in &mut table.constants {
         if let ConstantValue::File(path, read) = &mut constant.value {

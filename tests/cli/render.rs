@@ -21,7 +21,10 @@ const SMALL: &str = "--size 48x27 --shadow-map 64 --backend cpu";
 #[test]
 fn scenes_are_listed_one_a_line() {
     let said = Place::new().run("scenes");
-    assert_eq!(said.all(), "exit code: 0\nstdout:\nabutting\nboxes\ncolumns\ndining\ndisk\nfence\nfoliage\ngrazing\nlattice\nleaves\noutdoor\npoles\nslope\nstudio\ntable\nteapot\ntext\ntilt\n");
+    assert_eq!(
+        said.all(),
+        "exit code: 0\nstdout:\nabutting\nboxes\ncolumns\ndining\ndisk\nfence\nfoliage\ngrazing\nlattice\nleaves\noutdoor\npoles\nslope\nstudio\ntable\nteapot\ntext\ntilt\n"
+    );
 }
 
 /// A blue block over a grey ground, seen from above; light comes from the left, at 45 degrees.

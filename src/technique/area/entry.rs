@@ -15,11 +15,13 @@ use crate::gpu::timing::Stopwatch;
 use crate::scene::light::Lights;
 use crate::scene::rays::Rays;
 #[cfg(feature = "gpu")]
+use crate::technique::Executor;
+#[cfg(feature = "gpu")]
 use crate::technique::prepared::{Detail, Pass};
 use crate::technique::rendered::LIGHT;
 use crate::technique::setting::{Range, Value};
 use crate::technique::tables::{BOX_SILHOUETTE, BuiltIn, CLIP_STEP, EDGE_INTEGRAL, EDGE_SILHOUETTE, HORIZON_CLIP};
-use crate::technique::{Ability, Executor, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
+use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
 /// Rays to each light.
 pub const SAMPLES: Setting = Setting {
