@@ -26,6 +26,7 @@ fn host(program: &Program) -> String {
             Domain::Discrete(levels) if levels.kind == LevelKind::Bool => ("bool", "site.texel == 1u"),
             Domain::Discrete(_) => ("u32", "site.texel & 1u"),
             Domain::Continuous { .. } => ("f32", "f32(site.texel)"),
+            Domain::Word => ("u32", "site.texel"),
         };
         out += &format!("fn {lower}_fetch_{}(site: {camel}Site) -> {ty} {{ return {value}; }}\n", input.ident);
     }

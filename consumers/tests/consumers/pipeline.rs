@@ -74,6 +74,7 @@ fn points(program: &Program) -> Vec<Vec<Option<Value>>> {
             let value = |(index, input): (usize, &umbrage::program::Input)| match (&input.domain, input.fetched) {
                 (Domain::Discrete(_), None) => Value::Level(levels[index]),
                 (Domain::Discrete(known), Some(_)) => Value::Level(((state + index * turn) % known.count()) as u8),
+                (Domain::Word, _) => Value::Number((state * 7 + index * 3 + turn * 5) as f64),
                 (Domain::Continuous { .. }, _) => {
                     let eighths = (state * 7 + index * 3 + turn * 5) % 9;
                     Value::Number(eighths as f64 / 8.0 + if turn == 2 { 1.0 / 64.0 } else { 0.0 })

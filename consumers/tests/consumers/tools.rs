@@ -56,6 +56,7 @@ fn glsl(proved: &Proved<'_>, version: GlslVersion, vertex: bool) -> String {
             Domain::Discrete(levels) if levels.kind == LevelKind::Bool => ("bool", "site.texel == 1u"),
             Domain::Discrete(_) => ("uint", "site.texel & 1u"),
             Domain::Continuous { .. } => ("float", "float(site.texel)"),
+            Domain::Word => ("uint", "site.texel"),
         };
         out += &format!("{ty} {name}_fetch_{}({site} site) {{ return {value}; }}\n", input.ident);
     }
