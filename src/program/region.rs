@@ -148,9 +148,10 @@ fn feasible<'a>(
             constraints.extend(Rational::exact(hi).map(|hi| bound(minus, hi)));
         }
     }
+    constraints = tightest(constraints);
     for variable in &variables {
         let (mut above, mut below, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-        for constraint in tightest(constraints) {
+        for constraint in constraints {
             match constraint.form.terms.get(variable) {
                 Some(factor) if factor.is_positive() => above.push(constraint),
                 Some(_) => below.push(constraint),
@@ -169,7 +170,8 @@ fn feasible<'a>(
                 kept.push(a.without(variable, b)?);
             }
         }
-        constraints = tightest(kept);
+        // Where nothing is put together nothing follows that did not before.
+        constraints = if pairs == 0 { kept } else { tightest(kept) };
         if constraints.len() > MAX_CONSTRAINTS {
             return None;
         }
@@ -188,10 +190,12 @@ fn tightest(constraints: Vec<Constraint>) -> Vec<Constraint> {
     let mut places: HashMap<BTreeMap<Term, Rational>, usize> = HashMap::new();
     let mut kept: Vec<Constraint> = Vec::new();
     for Constraint { form, strict } in constraints {
-        let scale = form.terms.values().next().and_then(|leading| leading.abs().reciprocal());
-        let Some(form) = scale.and_then(|scale| form.times(scale)) else {
-            kept.push(Constraint { form, strict });
-            continue;
+        let form = match scaled(form) {
+            Ok(form) => form,
+            Err(form) => {
+                kept.push(Constraint { form, strict });
+                continue;
+            }
         };
         match places.get(&form.terms) {
             Some(place) => {
@@ -207,6 +211,15 @@ fn tightest(constraints: Vec<Constraint>) -> Vec<Constraint> {
         }
     }
     kept
+}
+
+/// The form divided by the magnitude of its first factor; the form itself if it has none, or numbers grow too large.
+fn scaled(form: Affine) -> Result<Affine, Affine> {
+    let Some(leading) = form.terms.values().next().map(|leading| leading.abs()) else { return Err(form) };
+    if leading == Rational::ONE {
+        return Ok(form);
+    }
+    leading.reciprocal().and_then(|scale| form.times(scale)).ok_or(form)
 }
 
 impl Constraint {

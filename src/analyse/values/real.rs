@@ -177,6 +177,28 @@ impl Laid {
     }
 }
 
+impl Laid {
+    /// Returns whether an operation fails at a point: for the very numbers that it is given there. Bounds over a
+    /// point are wider than it where an operation is none of those that are exact.
+    pub(in crate::analyse) fn fails_at(&self, point: &[f64]) -> bool {
+        let mut values: Vec<f64> = Vec::with_capacity(self.steps.len());
+        self.steps.iter().any(|Step { node, operands, .. }| {
+            let [a, b, c] = operands.map(|place| values.get(place).copied().unwrap_or(f64::NAN));
+            let (value, (_, fails)) = match node {
+                Node::Const(number) => (number.get(), (ANY, None)),
+                Node::Word(word) => (f64::from(*word), (ANY, None)),
+                Node::Input(input) => (point[input.index()], (ANY, None)),
+                Node::Index(_) | Node::Result(_) | Node::Select(..) => (f64::NAN, (ANY, None)),
+                Node::Unary(op, _) => (op.apply(a), op.image((a, a))),
+                Node::Binary(op, ..) => (op.apply(a, b), op.image((a, a), (b, b))),
+                Node::Ternary(op, ..) => (op.apply(a, b, c), op.image((a, a), (b, b), (c, c))),
+            };
+            values.push(value);
+            fails.is_some()
+        })
+    }
+}
+
 /// Bounds of a value without selections over the whole domain, to a precision if that can be had.
 pub(in crate::analyse) fn range(
     program: &Program,

@@ -2,7 +2,7 @@
 
 use super::orbit::chosen;
 use super::point::Point;
-use super::real::{Boxed, Laid, Trouble};
+use super::real::{Laid, Trouble};
 use crate::analyse::sets::Set;
 use crate::analyse::sets::study::Study;
 use crate::diag::{Diagnostic, Span, codes};
@@ -73,7 +73,7 @@ pub(in crate::analyse) fn search(study: &mut Study<'_>, set: Set, value: ExprId,
                 continue;
             }
             let taken = chosen(&mut study.space.pool, asked.written, &point);
-            if taken == value && laid.over(&Boxed::at(&point.numbers)).1.is_some() {
+            if taken == value && laid.fails_at(&point.numbers) {
                 return Search::Found { trouble, point, exact: true };
             }
             beside.push((point, taken == value));
