@@ -2,7 +2,7 @@
 // Silhouette of a box as a loop of corners
 // Source: KT, Sakurikar, Narayanan, Fast Analytic Soft Shadows from Area Lights, Graphics Interface 2021, section 3; all 27 places from four by the rotations of the cube
 // Table:  meaning 1 e4f8ebb91bc16bfe, 27 cases
-// Inputs: fnv1a 761a369fc4094056, of texts, weights and options
+// Inputs: fnv1a 78b245ec202c8f83, of texts, weights and options
 // Plan:   ordered
 // Cost:   expected tests 14.000, as written 14.000; optimal
 // Proof:  equal to the table on 27 states, 27 paths; the same operations on each
@@ -40,111 +40,111 @@ BoxSilhouetteResult box_silhouette_key_case(uint key) {
     uint y = (key >> 2u) & 3u;
     uint z = (key >> 4u) & 3u;
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 1: before a face (box_silhouette.ron:39)
+        // case 1: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult(uint[7](4u, 4u, 5u, 7u, 6u, 0u, 0u), 1u);
     }
     if ((y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 1 under third: before a face (box_silhouette.ron:39)
+        // case 1 under third: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult(uint[7](4u, 1u, 3u, 7u, 5u, 0u, 0u), 1u);
     }
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 1 under third, quarter: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult(uint[7](4u, 3u, 2u, 6u, 7u, 0u, 0u), 1u);
     }
     if ((y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_BELOW)) {
-        // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult(uint[7](4u, 2u, 0u, 4u, 6u, 0u, 0u), 1u);
     }
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_BELOW)) {
-        // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult(uint[7](4u, 0u, 1u, 5u, 4u, 0u, 0u), 1u);
     }
     if ((y == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW)) {
-        // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult(uint[7](4u, 0u, 2u, 3u, 1u, 0u, 0u), 1u);
     }
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2: before an edge (box_silhouette.ron:42)
+        // case 2: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 2u, 6u, 4u, 5u, 7u, 3u), 2u);
     }
     if ((y == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2 under quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 0u, 4u, 5u, 7u, 6u, 2u), 2u);
     }
     if ((y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_ABOVE) && (x == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2 under third: before an edge (box_silhouette.ron:42)
+        // case 2 under third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 4u, 5u, 1u, 3u, 7u, 6u), 2u);
     }
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2 under quarter, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 1u, 5u, 7u, 6u, 4u, 0u), 2u);
     }
     if ((z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2 under quarter, third: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 0u, 1u, 3u, 7u, 5u, 4u), 2u);
     }
     if ((z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_ABOVE) && (y == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2 under third, third: before an edge (box_silhouette.ron:42)
+        // case 2 under third, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 1u, 3u, 2u, 6u, 7u, 5u), 2u);
     }
     if ((z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_ABOVE) && (x == BOX_SILHOUETTE_X_BELOW)) {
-        // case 2 under third, third, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under third, third, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 3u, 2u, 0u, 4u, 6u, 7u), 2u);
     }
     if ((y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 2u, 3u, 7u, 5u, 1u, 0u), 2u);
     }
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 2 under quarter, third, third: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 0u, 2u, 6u, 7u, 3u, 1u), 2u);
     }
     if ((z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW)) {
-        // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 2u, 0u, 1u, 5u, 4u, 6u), 2u);
     }
     if ((y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_BELOW)) {
-        // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 1u, 0u, 4u, 6u, 2u, 3u), 2u);
     }
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW)) {
-        // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult(uint[7](6u, 3u, 1u, 5u, 4u, 0u, 2u), 2u);
     }
     if ((x == BOX_SILHOUETTE_X_ABOVE) && (y == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 3: before a corner (box_silhouette.ron:45)
+        // case 3: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 1u, 3u, 2u, 6u, 4u, 5u), 3u);
     }
     if ((y == BOX_SILHOUETTE_X_ABOVE) && (x == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 3 under quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 3u, 2u, 0u, 4u, 5u, 7u), 3u);
     }
     if ((x == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 3 under quarter, quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 2u, 0u, 1u, 5u, 7u, 6u), 3u);
     }
     if ((z == BOX_SILHOUETTE_X_ABOVE) && (y == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 3 under quarter, third: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 6u, 4u, 0u, 1u, 3u, 7u), 3u);
     }
     if ((y == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 4u, 0u, 2u, 3u, 7u, 5u), 3u);
     }
     if ((x == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_ABOVE)) {
-        // case 3 under quarter, third, third: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third, third: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 5u, 1u, 0u, 2u, 6u, 7u), 3u);
     }
     if ((y == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_BELOW)) {
-        // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 7u, 3u, 1u, 0u, 4u, 6u), 3u);
     }
     if ((x == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW)) {
-        // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult(uint[7](6u, 6u, 2u, 3u, 1u, 5u, 4u), 3u);
     }
     if ((x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN)) {
-        // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:48)
+        // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:50)
         return BoxSilhouetteResult(uint[7](0u, 0u, 0u, 0u, 0u, 0u, 0u), 4u);
     }
     // default: no case matches

@@ -2,7 +2,7 @@
 // Silhouette of a box as a loop of corners
 // Source: KT, Sakurikar, Narayanan, Fast Analytic Soft Shadows from Area Lights, Graphics Interface 2021, section 3; all 27 places from four by the rotations of the cube
 // Table:  meaning 1 e4f8ebb91bc16bfe, 27 cases
-// Inputs: fnv1a 761a369fc4094056, of texts, weights and options
+// Inputs: fnv1a 78b245ec202c8f83, of texts, weights and options
 // Plan:   ordered
 // Cost:   expected tests 14.000, as written 14.000; optimal
 // Proof:  equal to the table on 27 states, 27 paths; the same operations on each

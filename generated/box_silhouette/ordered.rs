@@ -2,7 +2,7 @@
 // Silhouette of a box as a loop of corners
 // Source: KT, Sakurikar, Narayanan, Fast Analytic Soft Shadows from Area Lights, Graphics Interface 2021, section 3; all 27 places from four by the rotations of the cube
 // Table:  meaning 1 e4f8ebb91bc16bfe, 27 cases
-// Inputs: fnv1a 761a369fc4094056, of texts, weights and options
+// Inputs: fnv1a 78b245ec202c8f83, of texts, weights and options
 // Plan:   ordered
 // Cost:   expected tests 14.000, as written 14.000; optimal
 // Proof:  equal to the table on 27 states, 27 paths; the same operations on each
@@ -42,111 +42,111 @@ pub fn box_silhouette_key_case(key: u32) -> BoxSilhouetteResult {
     let y: u32 = (key >> 2) & 3;
     let z: u32 = (key >> 4) & 3;
     if (x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_ABOVE) {
-        // case 1: before a face (box_silhouette.ron:39)
+        // case 1: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult { value: [4, 4, 5, 7, 6, 0, 0], case_id: 1 };
     }
     if (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_ABOVE) {
-        // case 1 under third: before a face (box_silhouette.ron:39)
+        // case 1 under third: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult { value: [4, 1, 3, 7, 5, 0, 0], case_id: 1 };
     }
     if (x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_ABOVE) {
-        // case 1 under third, quarter: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult { value: [4, 3, 2, 6, 7, 0, 0], case_id: 1 };
     }
     if (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_BELOW) {
-        // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult { value: [4, 2, 0, 4, 6, 0, 0], case_id: 1 };
     }
     if (x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_BELOW) {
-        // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult { value: [4, 0, 1, 5, 4, 0, 0], case_id: 1 };
     }
     if (y == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) {
-        // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:39)
+        // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:41)
         return BoxSilhouetteResult { value: [4, 0, 2, 3, 1, 0, 0], case_id: 1 };
     }
     if (x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2: before an edge (box_silhouette.ron:42)
+        // case 2: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 2, 6, 4, 5, 7, 3], case_id: 2 };
     }
     if (y == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2 under quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 0, 4, 5, 7, 6, 2], case_id: 2 };
     }
     if (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_ABOVE) && (x == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2 under third: before an edge (box_silhouette.ron:42)
+        // case 2 under third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 4, 5, 1, 3, 7, 6], case_id: 2 };
     }
     if (x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2 under quarter, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 1, 5, 7, 6, 4, 0], case_id: 2 };
     }
     if (z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2 under quarter, third: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 0, 1, 3, 7, 5, 4], case_id: 2 };
     }
     if (z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_ABOVE) && (y == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2 under third, third: before an edge (box_silhouette.ron:42)
+        // case 2 under third, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 1, 3, 2, 6, 7, 5], case_id: 2 };
     }
     if (z == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_ABOVE) && (x == BOX_SILHOUETTE_X_BELOW) {
-        // case 2 under third, third, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under third, third, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 3, 2, 0, 4, 6, 7], case_id: 2 };
     }
     if (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 2, 3, 7, 5, 1, 0], case_id: 2 };
     }
     if (x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_ABOVE) {
-        // case 2 under quarter, third, third: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third, third: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 0, 2, 6, 7, 3, 1], case_id: 2 };
     }
     if (z == BOX_SILHOUETTE_X_WITHIN) && (x == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW) {
-        // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 2, 0, 1, 5, 4, 6], case_id: 2 };
     }
     if (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_BELOW) {
-        // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 1, 0, 4, 6, 2, 3], case_id: 2 };
     }
     if (x == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW) {
-        // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+        // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
         return BoxSilhouetteResult { value: [6, 3, 1, 5, 4, 0, 2], case_id: 2 };
     }
     if (x == BOX_SILHOUETTE_X_ABOVE) && (y == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_ABOVE) {
-        // case 3: before a corner (box_silhouette.ron:45)
+        // case 3: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 1, 3, 2, 6, 4, 5], case_id: 3 };
     }
     if (y == BOX_SILHOUETTE_X_ABOVE) && (x == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE) {
-        // case 3 under quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 3, 2, 0, 4, 5, 7], case_id: 3 };
     }
     if (x == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_ABOVE) {
-        // case 3 under quarter, quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 2, 0, 1, 5, 7, 6], case_id: 3 };
     }
     if (z == BOX_SILHOUETTE_X_ABOVE) && (y == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE) {
-        // case 3 under quarter, third: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 6, 4, 0, 1, 3, 7], case_id: 3 };
     }
     if (y == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_ABOVE) {
-        // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 4, 0, 2, 3, 7, 5], case_id: 3 };
     }
     if (x == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_ABOVE) {
-        // case 3 under quarter, third, third: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third, third: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 5, 1, 0, 2, 6, 7], case_id: 3 };
     }
     if (y == BOX_SILHOUETTE_X_ABOVE) && (z == BOX_SILHOUETTE_X_BELOW) && (x == BOX_SILHOUETTE_X_BELOW) {
-        // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 7, 3, 1, 0, 4, 6], case_id: 3 };
     }
     if (x == BOX_SILHOUETTE_X_BELOW) && (z == BOX_SILHOUETTE_X_BELOW) && (y == BOX_SILHOUETTE_X_BELOW) {
-        // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:45)
+        // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:47)
         return BoxSilhouetteResult { value: [6, 6, 2, 3, 1, 5, 4], case_id: 3 };
     }
     if (x == BOX_SILHOUETTE_X_WITHIN) && (y == BOX_SILHOUETTE_X_WITHIN) && (z == BOX_SILHOUETTE_X_WITHIN) {
-        // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:48)
+        // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:50)
         return BoxSilhouetteResult { value: [0, 0, 0, 0, 0, 0, 0], case_id: 4 };
     }
     // default: no case matches

@@ -2,7 +2,7 @@
 // Silhouette of a box as a loop of corners
 // Source: KT, Sakurikar, Narayanan, Fast Analytic Soft Shadows from Area Lights, Graphics Interface 2021, section 3; all 27 places from four by the rotations of the cube
 // Table:  meaning 1 e4f8ebb91bc16bfe, 27 cases
-// Inputs: fnv1a b61b00d91d82adfc, of texts, weights and options
+// Inputs: fnv1a 2416452dd1bd100a, of texts, weights and options
 // Plan:   switch
 // Proof:  equal to the table on 27 states, 27 paths; the same operations on each
 
@@ -60,112 +60,112 @@ uint box_silhouette_arm(uint key) {
 BoxSilhouetteResult box_silhouette_key_case(uint key) {
     switch (box_silhouette_arm(key)) {
         case 0u: {
-            // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult(uint[7](6u, 6u, 2u, 3u, 1u, 5u, 4u), 3u);
         }
         case 1u: {
-            // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 2u, 0u, 1u, 5u, 4u, 6u), 2u);
         }
         case 2u: {
-            // case 3 under quarter, quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult(uint[7](6u, 2u, 0u, 1u, 5u, 7u, 6u), 3u);
         }
         case 3u: {
-            // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 1u, 0u, 4u, 6u, 2u, 3u), 2u);
         }
         case 4u: {
-            // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult(uint[7](4u, 2u, 0u, 4u, 6u, 0u, 0u), 1u);
         }
         case 5u: {
-            // case 2 under quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 0u, 4u, 5u, 7u, 6u, 2u), 2u);
         }
         case 6u: {
-            // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult(uint[7](6u, 7u, 3u, 1u, 0u, 4u, 6u), 3u);
         }
         case 7u: {
-            // case 2 under third, third, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under third, third, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 3u, 2u, 0u, 4u, 6u, 7u), 2u);
         }
         case 8u: {
-            // case 3 under quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult(uint[7](6u, 3u, 2u, 0u, 4u, 5u, 7u), 3u);
         }
         case 9u: {
-            // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 3u, 1u, 5u, 4u, 0u, 2u), 2u);
         }
         case 10u: {
-            // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult(uint[7](4u, 0u, 1u, 5u, 4u, 0u, 0u), 1u);
         }
         case 11u: {
-            // case 2 under quarter, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 1u, 5u, 7u, 6u, 4u, 0u), 2u);
         }
         case 12u: {
-            // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult(uint[7](4u, 0u, 2u, 3u, 1u, 0u, 0u), 1u);
         }
         case 13u: {
-            // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:48)
+            // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:50)
             return BoxSilhouetteResult(uint[7](0u, 0u, 0u, 0u, 0u, 0u, 0u), 4u);
         }
         case 14u: {
-            // case 1: before a face (box_silhouette.ron:39)
+            // case 1: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult(uint[7](4u, 4u, 5u, 7u, 6u, 0u, 0u), 1u);
         }
         case 15u: {
-            // case 2 under quarter, third, third: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 0u, 2u, 6u, 7u, 3u, 1u), 2u);
         }
         case 16u: {
-            // case 1 under third, quarter: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult(uint[7](4u, 3u, 2u, 6u, 7u, 0u, 0u), 1u);
         }
         case 17u: {
-            // case 2: before an edge (box_silhouette.ron:42)
+            // case 2: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 2u, 6u, 4u, 5u, 7u, 3u), 2u);
         }
         case 18u: {
-            // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult(uint[7](6u, 4u, 0u, 2u, 3u, 7u, 5u), 3u);
         }
         case 19u: {
-            // case 2 under quarter, third: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 0u, 1u, 3u, 7u, 5u, 4u), 2u);
         }
         case 20u: {
-            // case 3 under quarter, third: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult(uint[7](6u, 6u, 4u, 0u, 1u, 3u, 7u), 3u);
         }
         case 21u: {
-            // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 2u, 3u, 7u, 5u, 1u, 0u), 2u);
         }
         case 22u: {
-            // case 1 under third: before a face (box_silhouette.ron:39)
+            // case 1 under third: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult(uint[7](4u, 1u, 3u, 7u, 5u, 0u, 0u), 1u);
         }
         case 23u: {
-            // case 2 under third: before an edge (box_silhouette.ron:42)
+            // case 2 under third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 4u, 5u, 1u, 3u, 7u, 6u), 2u);
         }
         case 24u: {
-            // case 3 under quarter, third, third: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third, third: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult(uint[7](6u, 5u, 1u, 0u, 2u, 6u, 7u), 3u);
         }
         case 25u: {
-            // case 2 under third, third: before an edge (box_silhouette.ron:42)
+            // case 2 under third, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult(uint[7](6u, 1u, 3u, 2u, 6u, 7u, 5u), 2u);
         }
         default: { break; }
     }
-    // case 3: before a corner (box_silhouette.ron:45)
+    // case 3: before a corner (box_silhouette.ron:47)
     return BoxSilhouetteResult(uint[7](6u, 1u, 3u, 2u, 6u, 4u, 5u), 3u);
 }
 

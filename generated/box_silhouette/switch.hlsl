@@ -2,7 +2,7 @@
 // Silhouette of a box as a loop of corners
 // Source: KT, Sakurikar, Narayanan, Fast Analytic Soft Shadows from Area Lights, Graphics Interface 2021, section 3; all 27 places from four by the rotations of the cube
 // Table:  meaning 1 e4f8ebb91bc16bfe, 27 cases
-// Inputs: fnv1a b61b00d91d82adfc, of texts, weights and options
+// Inputs: fnv1a 2416452dd1bd100a, of texts, weights and options
 // Plan:   switch
 // Proof:  equal to the table on 27 states, 27 paths; the same operations on each
 

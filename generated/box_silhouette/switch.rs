@@ -2,7 +2,7 @@
 // Silhouette of a box as a loop of corners
 // Source: KT, Sakurikar, Narayanan, Fast Analytic Soft Shadows from Area Lights, Graphics Interface 2021, section 3; all 27 places from four by the rotations of the cube
 // Table:  meaning 1 e4f8ebb91bc16bfe, 27 cases
-// Inputs: fnv1a b61b00d91d82adfc, of texts, weights and options
+// Inputs: fnv1a 2416452dd1bd100a, of texts, weights and options
 // Plan:   switch
 // Proof:  equal to the table on 27 states, 27 paths; the same operations on each
 
@@ -62,112 +62,112 @@ pub fn box_silhouette_arm(key: u32) -> u32 {
 pub fn box_silhouette_key_case(key: u32) -> BoxSilhouetteResult {
     match box_silhouette_arm(key) {
         0 => {
-            // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third, third, quarter, quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult { value: [6, 6, 2, 3, 1, 5, 4], case_id: 3 };
         }
         1 => {
-            // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 2, 0, 1, 5, 4, 6], case_id: 2 };
         }
         2 => {
-            // case 3 under quarter, quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult { value: [6, 2, 0, 1, 5, 7, 6], case_id: 3 };
         }
         3 => {
-            // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third, third, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 1, 0, 4, 6, 2, 3], case_id: 2 };
         }
         4 => {
-            // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter, quarter: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult { value: [4, 2, 0, 4, 6, 0, 0], case_id: 1 };
         }
         5 => {
-            // case 2 under quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 0, 4, 5, 7, 6, 2], case_id: 2 };
         }
         6 => {
-            // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third, third, quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult { value: [6, 7, 3, 1, 0, 4, 6], case_id: 3 };
         }
         7 => {
-            // case 2 under third, third, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under third, third, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 3, 2, 0, 4, 6, 7], case_id: 2 };
         }
         8 => {
-            // case 3 under quarter: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult { value: [6, 3, 2, 0, 4, 5, 7], case_id: 3 };
         }
         9 => {
-            // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third, third, quarter, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 3, 1, 5, 4, 0, 2], case_id: 2 };
         }
         10 => {
-            // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter, quarter, quarter: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult { value: [4, 0, 1, 5, 4, 0, 0], case_id: 1 };
         }
         11 => {
-            // case 2 under quarter, quarter: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, quarter: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 1, 5, 7, 6, 4, 0], case_id: 2 };
         }
         12 => {
-            // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter, quarter, quarter, third: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult { value: [4, 0, 2, 3, 1, 0, 0], case_id: 1 };
         }
         13 => {
-            // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:48)
+            // case 4: inside: no silhouette, and everything is hidden (box_silhouette.ron:50)
             return BoxSilhouetteResult { value: [0, 0, 0, 0, 0, 0, 0], case_id: 4 };
         }
         14 => {
-            // case 1: before a face (box_silhouette.ron:39)
+            // case 1: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult { value: [4, 4, 5, 7, 6, 0, 0], case_id: 1 };
         }
         15 => {
-            // case 2 under quarter, third, third: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 0, 2, 6, 7, 3, 1], case_id: 2 };
         }
         16 => {
-            // case 1 under third, quarter: before a face (box_silhouette.ron:39)
+            // case 1 under third, quarter: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult { value: [4, 3, 2, 6, 7, 0, 0], case_id: 1 };
         }
         17 => {
-            // case 2: before an edge (box_silhouette.ron:42)
+            // case 2: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 2, 6, 4, 5, 7, 3], case_id: 2 };
         }
         18 => {
-            // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, quarter, third: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult { value: [6, 4, 0, 2, 3, 7, 5], case_id: 3 };
         }
         19 => {
-            // case 2 under quarter, third: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 0, 1, 3, 7, 5, 4], case_id: 2 };
         }
         20 => {
-            // case 3 under quarter, third: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult { value: [6, 6, 4, 0, 1, 3, 7], case_id: 3 };
         }
         21 => {
-            // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:42)
+            // case 2 under quarter, quarter, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 2, 3, 7, 5, 1, 0], case_id: 2 };
         }
         22 => {
-            // case 1 under third: before a face (box_silhouette.ron:39)
+            // case 1 under third: before a face (box_silhouette.ron:41)
             return BoxSilhouetteResult { value: [4, 1, 3, 7, 5, 0, 0], case_id: 1 };
         }
         23 => {
-            // case 2 under third: before an edge (box_silhouette.ron:42)
+            // case 2 under third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 4, 5, 1, 3, 7, 6], case_id: 2 };
         }
         24 => {
-            // case 3 under quarter, third, third: before a corner (box_silhouette.ron:45)
+            // case 3 under quarter, third, third: before a corner (box_silhouette.ron:47)
             return BoxSilhouetteResult { value: [6, 5, 1, 0, 2, 6, 7], case_id: 3 };
         }
         25 => {
-            // case 2 under third, third: before an edge (box_silhouette.ron:42)
+            // case 2 under third, third: before an edge (box_silhouette.ron:44)
             return BoxSilhouetteResult { value: [6, 1, 3, 2, 6, 7, 5], case_id: 2 };
         }
         _ => {}
     }
-    // case 3: before a corner (box_silhouette.ron:45)
+    // case 3: before a corner (box_silhouette.ron:47)
     return BoxSilhouetteResult { value: [6, 1, 3, 2, 6, 4, 5], case_id: 3 };
 }
 

@@ -2,7 +2,7 @@
 // parallel to the receiver at height 1, with a corner above the point
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 3596e7c80aba09bd, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -50,7 +50,7 @@ float closed_forms_rectangle_above(float a, float b) {
 // upright on the receiver's plane, a wide and b high, its nearest corner at the foot of the distance c
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 21709df561e8e454, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -97,7 +97,7 @@ float closed_forms_rectangle_standing(float a, float b, float c) {
 // a regular polygon at height h, on its axis
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 352957f87291d957, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 14 states, 14 paths; the same operations on each
 
@@ -151,7 +151,7 @@ float closed_forms_regular(int n, float q, float h) {
 // a disk at height h, on its axis, the receiver tilted
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 dde8083c5abb87fc, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -198,7 +198,7 @@ float closed_forms_disk(float r, float h, float tilt) {
 // a disk parallel to the receiver at height h, its axis at an offset
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 02d8c489cf998090, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -247,7 +247,7 @@ float closed_forms_disk_aside(float r, float h, float offset) {
 // an endless strip between two angles from the normal
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 f36db77e26af97ea, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -293,7 +293,7 @@ float closed_forms_strip(float begin, float end) {
 // a sphere above the horizon
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 1447f1632b36406e, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 

@@ -2,7 +2,7 @@
 // parallel to the receiver at height 1, with a corner above the point
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 3596e7c80aba09bd, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -48,7 +48,7 @@ fn closed_forms_rectangle_above(a: f32, b: f32) -> f32 {
 // upright on the receiver's plane, a wide and b high, its nearest corner at the foot of the distance c
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 21709df561e8e454, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -93,7 +93,7 @@ fn closed_forms_rectangle_standing(a: f32, b: f32, c: f32) -> f32 {
 // a regular polygon at height h, on its axis
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 352957f87291d957, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 14 states, 14 paths; the same operations on each
 
@@ -145,7 +145,7 @@ fn closed_forms_regular(n: i32, q: f32, h: f32) -> f32 {
 // a disk at height h, on its axis, the receiver tilted
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 dde8083c5abb87fc, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -190,7 +190,7 @@ fn closed_forms_disk(r: f32, h: f32, tilt: f32) -> f32 {
 // a disk parallel to the receiver at height h, its axis at an offset
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 02d8c489cf998090, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -237,7 +237,7 @@ fn closed_forms_disk_aside(r: f32, h: f32, offset: f32) -> f32 {
 // an endless strip between two angles from the normal
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 f36db77e26af97ea, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -281,7 +281,7 @@ fn closed_forms_strip(begin: f32, end: f32) -> f32 {
 // a sphere above the horizon
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors; the numbers of the examples were computed with forty digits
 // Table:  meaning 1 1447f1632b36406e, 1 cases
-// Inputs: fnv1a 0dc831767d36996a, of texts, weights and options
+// Inputs: fnv1a 7e95543f1d466f04, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 

@@ -2,7 +2,7 @@
 // the angle over its sine, of the angle with cosine d
 // Source: Lambert, Photometria, 1760, as Baum, Rushmeier and Winget give it (SIGGRAPH 1989); for light shaped by a linear transform Heitz, Dupuy, Hill and Neubelt, SIGGRAPH 2016
 // Table:  meaning 1 133f58ae49c0e119, 1 cases
-// Inputs: fnv1a d2e4bf457dedb806, of texts, weights and options
+// Inputs: fnv1a 0eda9ffc639ba6b9, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -55,7 +55,7 @@ float edge_integral_h(float d) {
 // what the edge from u to v adds to 2 pi F
 // Source: Lambert, Photometria, 1760, as Baum, Rushmeier and Winget give it (SIGGRAPH 1989); for light shaped by a linear transform Heitz, Dupuy, Hill and Neubelt, SIGGRAPH 2016
 // Table:  meaning 1 2667819f016acafe, 1 cases
-// Inputs: fnv1a d2e4bf457dedb806, of texts, weights and options
+// Inputs: fnv1a 0eda9ffc639ba6b9, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -136,7 +136,7 @@ float edge_integral_term(float ux, float uy, float uz, float vx, float vy, float
 // the same by the angle itself, for executors whose arc tangent is accurate
 // Source: Lambert, Photometria, 1760, as Baum, Rushmeier and Winget give it (SIGGRAPH 1989); for light shaped by a linear transform Heitz, Dupuy, Hill and Neubelt, SIGGRAPH 2016
 // Table:  meaning 1 d0aa977f5faf1824, 1 cases
-// Inputs: fnv1a d2e4bf457dedb806, of texts, weights and options
+// Inputs: fnv1a 0eda9ffc639ba6b9, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 
@@ -187,7 +187,7 @@ float edge_integral_term_exact(float ux, float uy, float uz, float vx, float vy,
 // F of a polygon that is small for its distance
 // Source: Lambert, Photometria, 1760, as Baum, Rushmeier and Winget give it (SIGGRAPH 1989); for light shaped by a linear transform Heitz, Dupuy, Hill and Neubelt, SIGGRAPH 2016
 // Table:  meaning 1 1105e8788b5de79e, 1 cases
-// Inputs: fnv1a d2e4bf457dedb806, of texts, weights and options
+// Inputs: fnv1a 0eda9ffc639ba6b9, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 1 states, 1 paths; the same operations on each
 

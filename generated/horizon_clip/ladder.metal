@@ -2,7 +2,7 @@
 // A quadrilateral clipped against the horizon
 // Source: Area lights shaded by linearly transformed cosines: the clip that public shaders write out by hand in sixteen branches
 // Table:  meaning 1 ba02ec95ba44be53, 15 cases
-// Inputs: fnv1a 533990bb47b555f8, of texts, weights and options
+// Inputs: fnv1a b9c4addf8e875bbf, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 16 states, 16 paths; the same operations on each
 

@@ -2,7 +2,7 @@
 // A quadrilateral clipped against the horizon
 // Source: Area lights shaded by linearly transformed cosines: the clip that public shaders write out by hand in sixteen branches
 // Table:  meaning 1 ba02ec95ba44be53, 15 cases
-// Inputs: fnv1a 533990bb47b555f8, of texts, weights and options
+// Inputs: fnv1a b9c4addf8e875bbf, of texts, weights and options
 // Plan:   ladder
 // Proof:  equal to the table on 16 states, 16 paths; the same operations on each
 
@@ -33,63 +33,63 @@ pub fn horizon_clip_key_case(key: u32) -> HorizonClipResult {
     let above_2: bool = ((key >> 2) & 1) != 0;
     let above_3: bool = ((key >> 3) & 1) != 0;
     if above_0 && !above_1 && !above_2 && !above_3 {
-        // case 1: one vertex above: a triangle (horizon_clip.ron:44)
+        // case 1: one vertex above: a triangle (horizon_clip.ron:45)
         return HorizonClipResult { value: [1, 3, 0, 4, 7, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
     }
     if above_1 && !above_2 && !above_3 && !above_0 {
-        // case 1 under turn: one vertex above: a triangle (horizon_clip.ron:44)
+        // case 1 under turn: one vertex above: a triangle (horizon_clip.ron:45)
         return HorizonClipResult { value: [1, 3, 1, 5, 4, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
     }
     if above_2 && !above_3 && !above_0 && !above_1 {
-        // case 1 under turn, turn: one vertex above: a triangle (horizon_clip.ron:44)
+        // case 1 under turn, turn: one vertex above: a triangle (horizon_clip.ron:45)
         return HorizonClipResult { value: [1, 3, 2, 6, 5, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
     }
     if above_3 && !above_0 && !above_1 && !above_2 {
-        // case 1 under turn, turn, turn: one vertex above: a triangle (horizon_clip.ron:44)
+        // case 1 under turn, turn, turn: one vertex above: a triangle (horizon_clip.ron:45)
         return HorizonClipResult { value: [1, 3, 3, 7, 6, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
     }
     if above_0 && above_1 && !above_2 && !above_3 {
-        // case 2: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+        // case 2: two neighbours above: a quadrilateral (horizon_clip.ron:48)
         return HorizonClipResult { value: [1, 4, 0, 1, 5, 7, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
     }
     if above_1 && above_2 && !above_3 && !above_0 {
-        // case 2 under turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+        // case 2 under turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
         return HorizonClipResult { value: [1, 4, 1, 2, 6, 4, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
     }
     if above_2 && above_3 && !above_0 && !above_1 {
-        // case 2 under turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+        // case 2 under turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
         return HorizonClipResult { value: [1, 4, 2, 3, 7, 5, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
     }
     if above_3 && above_0 && !above_1 && !above_2 {
-        // case 2 under turn, turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+        // case 2 under turn, turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
         return HorizonClipResult { value: [1, 4, 3, 0, 4, 6, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
     }
     if above_0 && !above_1 && above_2 && !above_3 {
-        // case 3: two opposite ones above: two triangles (horizon_clip.ron:50)
+        // case 3: two opposite ones above: two triangles (horizon_clip.ron:51)
         return HorizonClipResult { value: [2, 3, 0, 4, 7, 0, 0, 3, 2, 6, 5, 0, 0], case_id: 3 };
     }
     if above_1 && !above_2 && above_3 && !above_0 {
-        // case 3 under turn: two opposite ones above: two triangles (horizon_clip.ron:50)
+        // case 3 under turn: two opposite ones above: two triangles (horizon_clip.ron:51)
         return HorizonClipResult { value: [2, 3, 1, 5, 4, 0, 0, 3, 3, 7, 6, 0, 0], case_id: 3 };
     }
     if above_0 && above_1 && above_2 && !above_3 {
-        // case 4: one below: a pentagon (horizon_clip.ron:54)
+        // case 4: one below: a pentagon (horizon_clip.ron:55)
         return HorizonClipResult { value: [1, 5, 0, 1, 2, 6, 7, 0, 0, 0, 0, 0, 0], case_id: 4 };
     }
     if above_1 && above_2 && above_3 && !above_0 {
-        // case 4 under turn: one below: a pentagon (horizon_clip.ron:54)
+        // case 4 under turn: one below: a pentagon (horizon_clip.ron:55)
         return HorizonClipResult { value: [1, 5, 1, 2, 3, 7, 4, 0, 0, 0, 0, 0, 0], case_id: 4 };
     }
     if above_2 && above_3 && above_0 && !above_1 {
-        // case 4 under turn, turn: one below: a pentagon (horizon_clip.ron:54)
+        // case 4 under turn, turn: one below: a pentagon (horizon_clip.ron:55)
         return HorizonClipResult { value: [1, 5, 2, 3, 0, 4, 5, 0, 0, 0, 0, 0, 0], case_id: 4 };
     }
     if above_3 && above_0 && above_1 && !above_2 {
-        // case 4 under turn, turn, turn: one below: a pentagon (horizon_clip.ron:54)
+        // case 4 under turn, turn, turn: one below: a pentagon (horizon_clip.ron:55)
         return HorizonClipResult { value: [1, 5, 3, 0, 1, 5, 6, 0, 0, 0, 0, 0, 0], case_id: 4 };
     }
     if above_0 && above_1 && above_2 && above_3 {
-        // case 5: all of it above (horizon_clip.ron:57)
+        // case 5: all of it above (horizon_clip.ron:58)
         return HorizonClipResult { value: [1, 4, 0, 1, 2, 3, 0, 0, 0, 0, 0, 0, 0], case_id: 5 };
     }
     // default: no case matches

@@ -2,7 +2,7 @@
 // A quadrilateral clipped against the horizon
 // Source: Area lights shaded by linearly transformed cosines: the clip that public shaders write out by hand in sixteen branches
 // Table:  meaning 1 ba02ec95ba44be53, 15 cases
-// Inputs: fnv1a 420fda1706626d78, of texts, weights and options
+// Inputs: fnv1a 884b4702caf81758, of texts, weights and options
 // Plan:   ordered
 // Cost:   expected tests 8.438, as written 8.438; optimal
 // Proof:  equal to the table on 16 states, 16 paths; the same operations on each

@@ -2,7 +2,7 @@
 // A quadrilateral clipped against the horizon
 // Source: Area lights shaded by linearly transformed cosines: the clip that public shaders write out by hand in sixteen branches
 // Table:  meaning 1 ba02ec95ba44be53, 15 cases
-// Inputs: fnv1a 4a3cb5ecf5d0c7fc, of texts, weights and options
+// Inputs: fnv1a a6255b3132bbd0c8, of texts, weights and options
 // Plan:   switch
 // Proof:  equal to the table on 16 states, 16 paths; the same operations on each
 
@@ -47,64 +47,64 @@ HorizonClipResult horizon_clip_key_case(uint key) {
             return HorizonClipResult(uint[13](0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), HORIZON_CLIP_DEFAULT);
         }
         case 1u: {
-            // case 1 under turn, turn, turn: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1 under turn, turn, turn: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult(uint[13](1u, 3u, 3u, 7u, 6u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 1u);
         }
         case 2u: {
-            // case 1 under turn, turn: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1 under turn, turn: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult(uint[13](1u, 3u, 2u, 6u, 5u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 1u);
         }
         case 3u: {
-            // case 2 under turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2 under turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult(uint[13](1u, 4u, 2u, 3u, 7u, 5u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 2u);
         }
         case 4u: {
-            // case 1 under turn: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1 under turn: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult(uint[13](1u, 3u, 1u, 5u, 4u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 1u);
         }
         case 5u: {
-            // case 3 under turn: two opposite ones above: two triangles (horizon_clip.ron:50)
+            // case 3 under turn: two opposite ones above: two triangles (horizon_clip.ron:51)
             return HorizonClipResult(uint[13](2u, 3u, 1u, 5u, 4u, 0u, 0u, 3u, 3u, 7u, 6u, 0u, 0u), 3u);
         }
         case 6u: {
-            // case 2 under turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2 under turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult(uint[13](1u, 4u, 1u, 2u, 6u, 4u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 2u);
         }
         case 7u: {
-            // case 4 under turn: one below: a pentagon (horizon_clip.ron:54)
+            // case 4 under turn: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult(uint[13](1u, 5u, 1u, 2u, 3u, 7u, 4u, 0u, 0u, 0u, 0u, 0u, 0u), 4u);
         }
         case 8u: {
-            // case 1: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult(uint[13](1u, 3u, 0u, 4u, 7u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 1u);
         }
         case 9u: {
-            // case 2 under turn, turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2 under turn, turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult(uint[13](1u, 4u, 3u, 0u, 4u, 6u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 2u);
         }
         case 10u: {
-            // case 3: two opposite ones above: two triangles (horizon_clip.ron:50)
+            // case 3: two opposite ones above: two triangles (horizon_clip.ron:51)
             return HorizonClipResult(uint[13](2u, 3u, 0u, 4u, 7u, 0u, 0u, 3u, 2u, 6u, 5u, 0u, 0u), 3u);
         }
         case 11u: {
-            // case 4 under turn, turn: one below: a pentagon (horizon_clip.ron:54)
+            // case 4 under turn, turn: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult(uint[13](1u, 5u, 2u, 3u, 0u, 4u, 5u, 0u, 0u, 0u, 0u, 0u, 0u), 4u);
         }
         case 12u: {
-            // case 2: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult(uint[13](1u, 4u, 0u, 1u, 5u, 7u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 2u);
         }
         case 13u: {
-            // case 4 under turn, turn, turn: one below: a pentagon (horizon_clip.ron:54)
+            // case 4 under turn, turn, turn: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult(uint[13](1u, 5u, 3u, 0u, 1u, 5u, 6u, 0u, 0u, 0u, 0u, 0u, 0u), 4u);
         }
         case 14u: {
-            // case 4: one below: a pentagon (horizon_clip.ron:54)
+            // case 4: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult(uint[13](1u, 5u, 0u, 1u, 2u, 6u, 7u, 0u, 0u, 0u, 0u, 0u, 0u), 4u);
         }
         default: { break; }
     }
-    // case 5: all of it above (horizon_clip.ron:57)
+    // case 5: all of it above (horizon_clip.ron:58)
     return HorizonClipResult(uint[13](1u, 4u, 0u, 1u, 2u, 3u, 0u, 0u, 0u, 0u, 0u, 0u, 0u), 5u);
 }
 

@@ -2,7 +2,7 @@
 // A quadrilateral clipped against the horizon
 // Source: Area lights shaded by linearly transformed cosines: the clip that public shaders write out by hand in sixteen branches
 // Table:  meaning 1 ba02ec95ba44be53, 15 cases
-// Inputs: fnv1a 4a3cb5ecf5d0c7fc, of texts, weights and options
+// Inputs: fnv1a a6255b3132bbd0c8, of texts, weights and options
 // Plan:   switch
 // Proof:  equal to the table on 16 states, 16 paths; the same operations on each
 

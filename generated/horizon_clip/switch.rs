@@ -2,7 +2,7 @@
 // A quadrilateral clipped against the horizon
 // Source: Area lights shaded by linearly transformed cosines: the clip that public shaders write out by hand in sixteen branches
 // Table:  meaning 1 ba02ec95ba44be53, 15 cases
-// Inputs: fnv1a 4a3cb5ecf5d0c7fc, of texts, weights and options
+// Inputs: fnv1a a6255b3132bbd0c8, of texts, weights and options
 // Plan:   switch
 // Proof:  equal to the table on 16 states, 16 paths; the same operations on each
 
@@ -51,64 +51,64 @@ pub fn horizon_clip_key_case(key: u32) -> HorizonClipResult {
             return HorizonClipResult { value: [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], case_id: HORIZON_CLIP_DEFAULT };
         }
         1 => {
-            // case 1 under turn, turn, turn: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1 under turn, turn, turn: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult { value: [1, 3, 3, 7, 6, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
         }
         2 => {
-            // case 1 under turn, turn: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1 under turn, turn: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult { value: [1, 3, 2, 6, 5, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
         }
         3 => {
-            // case 2 under turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2 under turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult { value: [1, 4, 2, 3, 7, 5, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
         }
         4 => {
-            // case 1 under turn: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1 under turn: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult { value: [1, 3, 1, 5, 4, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
         }
         5 => {
-            // case 3 under turn: two opposite ones above: two triangles (horizon_clip.ron:50)
+            // case 3 under turn: two opposite ones above: two triangles (horizon_clip.ron:51)
             return HorizonClipResult { value: [2, 3, 1, 5, 4, 0, 0, 3, 3, 7, 6, 0, 0], case_id: 3 };
         }
         6 => {
-            // case 2 under turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2 under turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult { value: [1, 4, 1, 2, 6, 4, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
         }
         7 => {
-            // case 4 under turn: one below: a pentagon (horizon_clip.ron:54)
+            // case 4 under turn: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult { value: [1, 5, 1, 2, 3, 7, 4, 0, 0, 0, 0, 0, 0], case_id: 4 };
         }
         8 => {
-            // case 1: one vertex above: a triangle (horizon_clip.ron:44)
+            // case 1: one vertex above: a triangle (horizon_clip.ron:45)
             return HorizonClipResult { value: [1, 3, 0, 4, 7, 0, 0, 0, 0, 0, 0, 0, 0], case_id: 1 };
         }
         9 => {
-            // case 2 under turn, turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2 under turn, turn, turn: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult { value: [1, 4, 3, 0, 4, 6, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
         }
         10 => {
-            // case 3: two opposite ones above: two triangles (horizon_clip.ron:50)
+            // case 3: two opposite ones above: two triangles (horizon_clip.ron:51)
             return HorizonClipResult { value: [2, 3, 0, 4, 7, 0, 0, 3, 2, 6, 5, 0, 0], case_id: 3 };
         }
         11 => {
-            // case 4 under turn, turn: one below: a pentagon (horizon_clip.ron:54)
+            // case 4 under turn, turn: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult { value: [1, 5, 2, 3, 0, 4, 5, 0, 0, 0, 0, 0, 0], case_id: 4 };
         }
         12 => {
-            // case 2: two neighbours above: a quadrilateral (horizon_clip.ron:47)
+            // case 2: two neighbours above: a quadrilateral (horizon_clip.ron:48)
             return HorizonClipResult { value: [1, 4, 0, 1, 5, 7, 0, 0, 0, 0, 0, 0, 0], case_id: 2 };
         }
         13 => {
-            // case 4 under turn, turn, turn: one below: a pentagon (horizon_clip.ron:54)
+            // case 4 under turn, turn, turn: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult { value: [1, 5, 3, 0, 1, 5, 6, 0, 0, 0, 0, 0, 0], case_id: 4 };
         }
         14 => {
-            // case 4: one below: a pentagon (horizon_clip.ron:54)
+            // case 4: one below: a pentagon (horizon_clip.ron:55)
             return HorizonClipResult { value: [1, 5, 0, 1, 2, 6, 7, 0, 0, 0, 0, 0, 0], case_id: 4 };
         }
         _ => {}
     }
-    // case 5: all of it above (horizon_clip.ron:57)
+    // case 5: all of it above (horizon_clip.ron:58)
     return HorizonClipResult { value: [1, 4, 0, 1, 2, 3, 0, 0, 0, 0, 0, 0, 0], case_id: 5 };
 }
 
