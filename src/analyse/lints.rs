@@ -102,7 +102,7 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
         let of_code = |(of, allow): &&(Option<usize>, &Allow)| *of == row && allow.code.value == finding.code.0;
         let covers = |(_, allow): &(Option<usize>, &Allow)| unnamed(allow, &finding).is_empty();
         for (number, _) in allows.iter().enumerate().filter(|(_, entry)| of_code(entry)) {
-            about[number].get_or_insert_default().extend(finding.about.iter().cloned());
+            about[number].get_or_insert_default().extend(finding.subject().iter().cloned());
         }
         let fits = allows.iter().position(|entry| of_code(&entry) && covers(entry));
         match fits {
@@ -132,13 +132,13 @@ pub(super) fn sort(program: &Program, found: Vec<Diagnostic>, left_out: &[Code],
 /// The things that a finding is about and an `allow` does not name.
 fn unnamed<'f>(allow: &Allow, finding: &'f Diagnostic) -> Vec<&'f str> {
     let Some(with) = &allow.with else { return Vec::new() };
-    let about = finding.about.iter().map(String::as_str);
+    let about = finding.subject().iter().map(String::as_str);
     about.filter(|thing| !with.iter().any(|named| named.value == *thing)).collect()
 }
 
 /// A finding with the `allow` that would acknowledge it; `others` are those of its place and code that do not.
 fn with_advice(finding: Diagnostic, others: &[&Allow], row: Option<usize>, text: &Text<'_>) -> Diagnostic {
-    if finding.severity == Severity::Error || finding.about.is_empty() {
+    if finding.severity == Severity::Error || finding.subject().is_empty() {
         return finding;
     }
     let owned = |things: Vec<&str>| things.into_iter().map(str::to_owned).collect::<Vec<_>>();
@@ -150,7 +150,7 @@ fn with_advice(finding: Diagnostic, others: &[&Allow], row: Option<usize>, text:
             text.offer_more(finding.help(help), allow, &new)
         }
         None => {
-            let about: Vec<&str> = finding.about.iter().map(String::as_str).collect();
+            let about: Vec<&str> = finding.subject().iter().map(String::as_str).collect();
             let allow = format!("(code: \"{}\", with: {}, reason: \"...\")", finding.code, listed(&about));
             text.offer(finding.help(format!("if it is understood and stays: allow: [{allow}]")), row, &allow)
         }

@@ -13,7 +13,7 @@ use crate::build;
 use crate::cli::output::stdout;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::diff::{self, Options};
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::{AdapterChoice, Gpu, Language};
 use crate::plan::Weights;
 use crate::profile;
 use crate::program::Program;
@@ -199,6 +199,9 @@ fn human(
         out,
         "  plan           entry   source   bit-equal  admissible   reordered   offending   worst difference"
     )?;
+    if !Language::Glsl.runs(program) {
+        writeln!(out, "  GLSL is not run: naga refuses lists in the structure of a result")?;
+    }
     for run in &report.runs {
         writeln!(
             out,

@@ -112,8 +112,8 @@ fn object(source: &Source, diagnostic: &Diagnostic) -> Value {
         "file": source.name,
         "labels": diagnostic.labels.iter().map(label).collect::<Vec<_>>(),
         "notes": diagnostic.notes,
-        "about": diagnostic.about,
-        "repairs": diagnostic.repairs.iter().map(repair).collect::<Vec<_>>(),
+        "about": diagnostic.subject(),
+        "repairs": diagnostic.repairs().iter().map(repair).collect::<Vec<_>>(),
     })
 }
 

@@ -66,11 +66,15 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// Further lines: what was expected, and how to mend it.
     pub notes: Vec<String>,
-    /// The subject of a finding, apart from its code and its first place: lines, cases, symmetries,
-    /// sizes. An `allow` of a table names the same; with anything else it is another finding.
-    pub about: Vec<String>,
-    /// Changes that would mend it, the likeliest first; mostly none.
-    pub repairs: Vec<Repair>,
+    /// Boxed, as diagnostics are returned as errors everywhere, and most have none.
+    pub(crate) details: Option<Box<Details>>,
+}
+
+/// The parts of a diagnostic that tools look at rather than people.
+#[derive(Default, Debug, Clone, PartialEq)]
+pub(crate) struct Details {
+    about: Vec<String>,
+    repairs: Vec<Repair>,
 }
 
 impl Diagnostic {
@@ -84,14 +88,24 @@ impl Diagnostic {
         Self::new(Severity::Warning, code, message)
     }
 
+    /// The subject of a finding, apart from its code and its first place: lines, cases, symmetries,
+    /// sizes. An `allow` of a table names the same; with anything else it is another finding.
+    pub fn subject(&self) -> &[String] {
+        self.details.as_ref().map_or(&[], |details| &details.about)
+    }
+
+    /// Changes that would mend it, the likeliest first; mostly none.
+    pub fn repairs(&self) -> &[Repair] {
+        self.details.as_ref().map_or(&[], |details| &details.repairs)
+    }
+
     /// A note with a headline.
     pub fn note(code: Code, message: impl Into<String>) -> Self {
         Self::new(Severity::Note, code, message)
     }
 
     fn new(severity: Severity, code: Code, message: impl Into<String>) -> Self {
-        let (labels, notes, about, repairs) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { code, severity, message: message.into(), labels, notes, about, repairs }
+        Self { code, severity, message: message.into(), labels: Vec::new(), notes: Vec::new(), details: None }
     }
 
     /// Points at a place.
@@ -121,15 +135,19 @@ impl Diagnostic {
 
     /// Offers a change of the text that mends it.
     pub fn mend(mut self, title: impl Into<String>, span: Span, replacement: impl Into<String>) -> Self {
-        self.repairs.push(Repair { title: title.into(), span, replacement: replacement.into() });
+        self.details.get_or_insert_default().repairs.push(Repair {
+            title: title.into(),
+            span,
+            replacement: replacement.into(),
+        });
         self
     }
 
     /// Says what a finding is about; each thing once, in the order of the first mention.
     pub fn about<S: Into<String>>(mut self, things: impl IntoIterator<Item = S>) -> Self {
         for thing in things.into_iter().map(Into::into) {
-            if !self.about.contains(&thing) {
-                self.about.push(thing);
+            if !self.subject().contains(&thing) {
+                self.details.get_or_insert_default().about.push(thing);
             }
         }
         self

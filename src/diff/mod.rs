@@ -276,7 +276,8 @@ impl<'a, 'p> Comparison<'a, 'p> {
         let mut wanted = Vec::new();
         for proved in proved {
             for entry in entries {
-                wanted.extend(languages.iter().map(|language| (proved, *entry, *language)));
+                let languages = languages.iter().filter(|language| language.runs(program));
+                wanted.extend(languages.map(|language| (proved, *entry, *language)));
             }
         }
         let runs = wanted.iter().map(|(proved, entry, language)| Run::new(proved.plan().shape, *entry, *language));

@@ -28,6 +28,15 @@ impl Language {
     /// Both.
     pub const ALL: [Language; 2] = [Language::Wgsl, Language::Glsl];
 
+    /// Returns whether programs in it can be run: naga's reader of GLSL gives an array in a structure another stride than
+    /// one by itself, so that it refuses every result that is a list.
+    pub fn runs(self, program: &Program) -> bool {
+        match self {
+            Language::Wgsl => true,
+            Language::Glsl => !program.output.data_type().has_array(),
+        }
+    }
+
     /// The name in reports.
     pub fn name(self) -> &'static str {
         match self {

@@ -71,12 +71,11 @@ fn work(pending: &Receiver<Job>, settings: &Settings, outlet: &Outlet, found: &F
     // By text, the newest of it; and whose turn it is.
     let mut newest: BTreeMap<String, Job> = BTreeMap::new();
     loop {
-        match newest.is_empty() {
-            true => match pending.recv() {
+        if newest.is_empty() {
+            match pending.recv() {
                 Ok(job) => drop(newest.insert(job.uri.as_str().to_owned(), job)),
                 Err(mpsc::RecvError) => return,
-            },
-            false => {}
+            }
         }
         newest.extend(pending.try_iter().map(|job| (job.uri.as_str().to_owned(), job)));
         let Some((key, job)) = newest.pop_first() else { continue };

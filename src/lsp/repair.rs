@@ -30,14 +30,14 @@ pub(super) fn actions(
     });
     let mut actions = Vec::new();
     for diagnostic in touched {
-        for repair in &diagnostic.repairs {
+        for repair in diagnostic.repairs() {
             let edit = TextEdit::new(document.range(repair.span), repair.replacement.clone());
             actions.push(CodeActionOrCommand::CodeAction(CodeAction {
                 title: repair.title.clone(),
                 kind: Some(CodeActionKind::QUICKFIX),
                 diagnostics: Some(vec![shown(&document.uri, &document.source, diagnostic, settings)]),
                 edit: Some(edits(&document.uri, vec![edit])),
-                is_preferred: Some(diagnostic.repairs.len() == 1),
+                is_preferred: Some(diagnostic.repairs().len() == 1),
                 ..CodeAction::default()
             }));
         }

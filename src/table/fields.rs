@@ -224,7 +224,7 @@ mod tests {
     #[test]
     fn readers_say_their_fields() {
         let words = |part| forms(part).iter().map(|form| form.word).collect::<Vec<_>>();
-        assert_eq!(words(Part::Input), ["Levels", "Bool", "Int", "Range"]);
+        assert_eq!(words(Part::Input), ["Levels", "Bool", "Int", "U32", "Range"]);
         assert_eq!(words(Part::Continuity), ["Border", "Switch"]);
         assert_eq!(forms(Part::Fetched)[0].fields, ["cost"]);
         assert!(forms(Part::Draw).iter().any(|form| form.word == "Across" && form.is_bare));

@@ -6,8 +6,12 @@
 use std::path::Path;
 
 use super::MAX_BYTES;
-use crate::diag::{Diagnostic, Failure, codes};
-use crate::text::file::{read_text, shown};
+use crate::diag::Failure;
+#[cfg(feature = "render")]
+use crate::diag::{Diagnostic, codes};
+use crate::text::file::read_text;
+#[cfg(feature = "render")]
+use crate::text::file::shown;
 
 /// The place where what a table names is looked for.
 #[derive(Debug, Clone, Copy)]
@@ -15,6 +19,7 @@ pub(super) enum Library {
     /// Among files.
     Disk,
     /// Among these texts, each with its path.
+    #[cfg(feature = "render")]
     Texts(&'static [(&'static str, &'static str)]),
 }
 
@@ -23,6 +28,7 @@ impl Library {
     pub(super) fn read(self, path: &Path) -> Result<String, Failure> {
         match self {
             Library::Disk => read_text(path, MAX_BYTES),
+            #[cfg(feature = "render")]
             Library::Texts(texts) => {
                 let found = texts.iter().find(|(known, _)| Path::new(known) == path);
                 let missing =

@@ -394,6 +394,7 @@ impl Table {
     ///
     /// # Errors
     /// When the text is not a well-formed table, or names something else.
+    #[cfg(feature = "render")]
     pub(crate) fn parse_among(
         source: Arc<Source>,
         texts: &'static [(&'static str, &'static str)],

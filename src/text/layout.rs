@@ -46,6 +46,7 @@ impl<'a> Layout<'a> {
     }
 
     /// The place of the first token.
+    #[cfg(any(feature = "precise", test))]
     pub(crate) fn start(&self) -> usize {
         self.tokens.first().map_or(0, |(_, span)| span.start)
     }
@@ -102,6 +103,7 @@ impl<'a> Layout<'a> {
 
 impl Bracket {
     /// The item whose key stands at a place.
+    #[cfg(any(feature = "precise", test))]
     pub(crate) fn keyed(&self, at: Span) -> Option<&Item> {
         self.items.iter().find(|item| item.key.is_some_and(|key| key.start <= at.start && at.end <= key.end))
     }

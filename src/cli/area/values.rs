@@ -45,7 +45,7 @@ pub(super) fn entries<'s, const N: usize>(
     for (name, value) in entries {
         let Some(place) = names.iter().position(|known| *known == name) else {
             let mistake = Mistake::new(value, format!("{what} has no field `{}`", shorten(&name)));
-            return Err(match nearest(&name, names.into_iter()) {
+            return Err(match nearest(&name, names) {
                 Some(close) => mistake.help(format!("did you mean `{close}`?")),
                 None => mistake.help(format!("the fields are {}", names.join(", "))),
             });

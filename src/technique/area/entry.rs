@@ -25,7 +25,7 @@ use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Se
 
 /// Rays to each light.
 pub const SAMPLES: Setting = Setting {
-    name: "samples",
+    name: "rays",
     doc: "rays of a pixel to each light",
     default: Value::Whole(16),
     range: Range::Whole(1, 1 << 16),
