@@ -389,7 +389,11 @@ impl<'p> Judge<'p> {
             return;
         }
         let want = expected.path(point);
-        let got_row = if leeway.other_case { want.row } else { outputs.rows[point] };
+        // A device tells a case by its number, which its images share.
+        let number = |row: Option<usize>| row.map(|row| self.program.rows[row].id);
+        let told = outputs.rows[point];
+        let is_same = leeway.other_case || number(told) == number(want.row);
+        let got_row = if is_same { want.row } else { told };
         let same_case = want.row == got_row;
         let (mut same_bits, mut worst) = (same_case, 0.0_f64);
         for ((component, values), of) in outputs.values.iter().enumerate().zip(self.program.output.components()) {
@@ -426,7 +430,7 @@ impl<'p> Judge<'p> {
                 near.is_ok_and(|near| match needless {
                     Some(_) if same_case => near.contains_fetching(got_row, &values, fetched),
                     _ if leeway.other_case => near.contains_values(&values),
-                    _ => near.contains(got_row, &values),
+                    _ => self.program.rows_like(got_row).any(|row| near.contains(row, &values)),
                 })
             };
             if legal(false) {

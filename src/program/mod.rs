@@ -427,6 +427,13 @@ impl Program {
         continuous.fold(InputSet::default(), |set, (id, _)| set.or(InputSet::one(id)))
     }
 
+    /// The rows with the number of this one: itself, and the other images of its case. The default is alone.
+    pub fn rows_like(&self, row: Option<usize>) -> impl Iterator<Item = Option<usize>> {
+        let number = row.map(|row| self.rows[row].id);
+        let same = self.rows.iter().enumerate().filter(move |(_, row)| number == Some(row.id));
+        same.map(|(row, _)| Some(row)).chain(row.is_none().then_some(None))
+    }
+
     /// All inputs with their ids.
     pub fn input_ids(&self) -> impl Iterator<Item = (InputId, &Input)> {
         self.inputs.iter().enumerate().map(|(i, input)| (InputId::new(i), input))

@@ -105,10 +105,12 @@ impl Lowering<'_> {
                 return Err(no_operation(op.row().notation.name(), span));
             }
         };
-        let b = match op {
-            BinaryOp::WordQuotient | BinaryOp::WordRemainder => self.divisor(b, span)?,
-            BinaryOp::ShiftLeft | BinaryOp::ShiftRight => self.places(b, span)?,
-            _ => b,
+        let b = if matches!(op, BinaryOp::WordQuotient | BinaryOp::WordRemainder) {
+            self.divisor(b, span)?
+        } else if matches!(op, BinaryOp::ShiftLeft | BinaryOp::ShiftRight) {
+            self.places(b, span)?
+        } else {
+            b
         };
         Ok(Some(Term::Word(self.pool.binary(op, a, b))))
     }
@@ -170,7 +172,7 @@ impl Lowering<'_> {
     }
 
     /// `u32(number)`, `u32(condition)`.
-    pub(super) fn to_word(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+    pub(super) fn word_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         let term = self.term(argument, env, Expected::Anything)?;
         if let Some(whole) = self.whole_of(&term).filter(|_| self.is_whole(&term)) {
             return Ok(Term::Word(self.pool.unary(UnaryOp::WordOfWhole, whole)));
@@ -218,7 +220,7 @@ impl Lowering<'_> {
     }
 
     /// `i32(word)`: a whole number, if it is small enough for one.
-    pub(super) fn to_whole(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+    pub(super) fn whole_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         let term = self.term(argument, env, Expected::Anything)?;
         match (&term, self.whole_of(&term)) {
             (Term::Word(word), _) => {

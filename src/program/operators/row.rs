@@ -194,6 +194,9 @@ pub struct Binary {
     pub spellings: Spellings,
 }
 
+/// The meanings of an operation on two numbers, in `f64` and in `f32`.
+type Meanings = (fn(f64, f64) -> f64, fn(f32, f32) -> f32);
+
 impl Binary {
     pub(super) const fn symbol(
         op: ast::BinaryOp,
@@ -243,7 +246,7 @@ impl Binary {
     /// The row of an operation on words, which languages write as tables do unless Rust says otherwise.
     pub(super) const fn words(
         op: ast::BinaryOp,
-        of: (fn(f64, f64) -> f64, fn(f32, f32) -> f32),
+        of: Meanings,
         image: fn(Bounds, Bounds) -> Bounded,
         rust: Spelling,
     ) -> Self {
@@ -253,7 +256,7 @@ impl Binary {
     /// The row of an operation on words: its meanings in `f64` and in `f32`, and all that it is written as.
     pub(super) const fn on_words(
         notation: Notation,
-        (wide, narrow): (fn(f64, f64) -> f64, fn(f32, f32) -> f32),
+        (wide, narrow): Meanings,
         image: fn(Bounds, Bounds) -> Bounded,
         spellings: Spellings,
     ) -> Self {
