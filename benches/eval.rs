@@ -51,6 +51,7 @@ fn columns(program: &Program, kind: &str) -> Columns<f32> {
                         Value::Level(if random.below(10) < 9 { 1 } else { random.below(3) as u8 })
                     }
                     (Domain::Discrete(levels), ..) => Value::Level(random.below(levels.count() as u64) as u8),
+                    (Domain::Word, ..) => Value::Number(random.below(1 << 32) as f64),
                     (Domain::Continuous { .. }, ..) => Value::Number(random.below(1 << 20) as f64 / f64::from(1 << 20)),
                 })
             })

@@ -81,7 +81,7 @@ static ALL: &[BuiltIn] = &[
         repeats: false,
         since: SINCE,
         doc: "of a number its whole part, limited to U32; of a whole number that number modulo 2^32; of a condition 1 or 0",
-        meaning: Meaning::Written(|lowering, call| lowering.word_of(&call.arguments[0], call.env)),
+        meaning: Meaning::Written(|lowering, call| lowering.made_word(&call.arguments[0], call.env)),
     },
     BuiltIn {
         name: "i32",
@@ -89,7 +89,7 @@ static ALL: &[BuiltIn] = &[
         repeats: false,
         since: SINCE,
         doc: "of a U32 that is at most 2^24 the whole number",
-        meaning: Meaning::Written(|lowering, call| lowering.whole_of(&call.arguments[0], call.env)),
+        meaning: Meaning::Written(|lowering, call| lowering.made_whole(&call.arguments[0], call.env)),
     },
     BuiltIn {
         name: "index",

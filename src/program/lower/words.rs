@@ -172,7 +172,7 @@ impl Lowering<'_> {
     }
 
     /// `u32(number)`, `u32(condition)`.
-    pub(super) fn word_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+    pub(super) fn made_word(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         let term = self.term(argument, env, Expected::Anything)?;
         if let Some(whole) = self.whole_of(&term).filter(|_| self.is_whole(&term)) {
             return Ok(Term::Word(self.pool.unary(UnaryOp::WordOfWhole, whole)));
@@ -220,7 +220,7 @@ impl Lowering<'_> {
     }
 
     /// `i32(word)`: a whole number, if it is small enough for one.
-    pub(super) fn whole_of(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
+    pub(super) fn made_whole(&mut self, argument: &Expr, env: &Env) -> Result<Term> {
         let term = self.term(argument, env, Expected::Anything)?;
         match (&term, self.whole_of(&term)) {
             (Term::Word(word), _) => {

@@ -16,8 +16,8 @@ const LARGEST: f64 = 4_294_967_040.0;
 /// The whole part of a number from 0 to [`LARGEST`]; of others, that of the nearest one, and 0 of what is none.
 #[inline]
 pub(super) fn of_number(number: f64) -> u32 {
-    // Of no number both give the bound.
-    number.max(0.0).min(LARGEST) as u32
+    // What is no number stays none, and becomes 0.
+    number.clamp(0.0, LARGEST) as u32
 }
 
 /// A word as a number.

@@ -275,7 +275,7 @@ impl World {
                     *centre + half(0) + half(1) + half(2)
                 };
                 let all: Vec<DVec3> = (0..8).map(corner).collect();
-                let flat = halves.iter().any(|half| *half == DVec3::ZERO);
+                let flat = halves.contains(&DVec3::ZERO);
                 if crosses(&all) == (true, true) || flat {
                     for axis in 0..3 {
                         let (a, b) = (1 << ((axis + 1) % 3), 1 << ((axis + 2) % 3));

@@ -124,9 +124,9 @@ impl<'m, S: Slabs, T: Real> Sweep<'m, S, T> {
         let all = all.zip(seen.colour.par_chunks_mut(width).zip(seen.opacity.par_chunks_mut(width)));
         all.enumerate().for_each(|(y, ((out, row), (colour, opacity)))| {
             for (light_index, gather) in step.gathers.iter().enumerate() {
-                for channel in 0..3 {
+                for (channel, bright) in colours[light_index].iter().enumerate() {
                     let start = (3 * light_index + channel) * width;
-                    let unhindered = T::of(colours[light_index][channel]);
+                    let unhindered = T::of(*bright);
                     gather.gather(&mut out[start..start + width], y, height, border, unhindered, |y| {
                         light.row(y, light_index, channel)
                     });
