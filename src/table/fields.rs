@@ -1,6 +1,6 @@
 //! The fields that the parts of a table may have, asked of those who read them.
 //!
-//! An editor offers them. Which there are is said once, by the structs that [`super::read`] and
+//! An editor offers them. Which there are is said once, by the structs that `table::read` and
 //! its like read into: a deserialiser that answers nothing is told what they ask for. What a
 //! field means is said once as well, in `docs/language.md`.
 

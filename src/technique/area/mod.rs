@@ -7,7 +7,7 @@
 //!
 //! Nothing is projected: a polygon is its corners as seen from the point, an occluder the planes
 //! through the point along its silhouette, and what is visible is left when these are peeled off
-//! ([`peel`]). Every decision is a row of a table: the horizon's clip (`horizon_clip`), the clip
+//! (`peel.rs`). Every decision is a row of a table: the horizon's clip (`horizon_clip`), the clip
 //! against a plane (`clip_step`), the silhouettes of boxes (`box_silhouette`) and meshes
 //! (`edge_silhouette`), and the edge integral (`edge_integral`). The method is that of KT,
 //! Sakurikar and Narayanan, Fast Analytic Soft Shadows from Area Lights (Graphics Interface 2021),
