@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use super::pool::LevelSet;
+use super::bits::LevelSet;
 use super::rational::gcd;
 
 /// The ways in which a table tells the integers of an input apart.

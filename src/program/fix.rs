@@ -8,9 +8,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::bits::{InputSet, LevelSet};
 use super::domain::{Domain, Input, StateSpace, Value};
 use super::draw::Draw;
-use super::pool::{CondId, ExprId, InputSet, LevelSet, Pool};
+use super::pool::{CondId, ExprId, Pool};
 use super::substitute::{Meanings, Substitution};
 use super::{
     Assumption, Continuity, ContinuityKind, Example, InputId, LevelTerm, Line, Program, Row, Symmetry, Written,

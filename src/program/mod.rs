@@ -17,6 +17,7 @@
 // A new operation, step or target must be thought of wherever one is told from another.
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod bits;
 mod claimed;
 pub(crate) mod claims;
 mod classes;
@@ -51,6 +52,7 @@ use std::sync::Arc;
 use crate::diag::{Failure, Source, Span, Spanned};
 use crate::table::{Allow, Erratum, HitPolicy, Table};
 
+pub use bits::{InputSet, LevelSet};
 pub use claimed::{Claim, ClaimedPair, Claims};
 pub use classes::{Classes, Piece};
 pub use data_type::{Component, DataType, Scalar};
@@ -61,7 +63,7 @@ pub use operators::{BinaryOp, Comparison, TernaryOp, UnaryOp};
 pub use ops::Real;
 pub use outcomes::Outcome;
 pub use output::{Output, Reading};
-pub use pool::{Cond, CondId, ExprId, Facts, InputSet, LevelSet, Node, Number, Pool};
+pub use pool::{Cond, CondId, ExprId, Facts, Node, Number, Pool};
 pub(crate) use reachable::can_occur;
 pub use reachable::reachable;
 #[cfg(test)]

@@ -6,8 +6,9 @@
 
 use std::collections::HashMap;
 
+use super::bits::InputSet;
 use super::operators::{ANY, Bounds, Comparison};
-use super::pool::{Cond, CondId, ExprId, InputSet, Node, Pool};
+use super::pool::{Cond, CondId, ExprId, Node, Pool};
 use super::{BinaryOp, InputId, Real};
 
 /// Most combinations of levels that are gone through, times what is asked of each.

@@ -5,7 +5,8 @@
 
 use std::collections::HashMap;
 
-use super::pool::{Cond, CondId, ExprId, LevelSet, Node, Pool};
+use super::bits::LevelSet;
+use super::pool::{Cond, CondId, ExprId, Node, Pool};
 use super::{InputId, Line, Program};
 
 /// The place that terms are carried to, and what inputs mean there.

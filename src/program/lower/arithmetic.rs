@@ -8,8 +8,9 @@ use super::terms::{Term, type_error};
 use super::{Lowering, Result, SINCE};
 use crate::diag::{Diagnostic, Span, codes};
 use crate::program::InputId;
+use crate::program::bits::LevelSet;
 use crate::program::operators::{BinaryOp, Comparison, TernaryAlgebra, TernaryOp, UnaryOp};
-use crate::program::pool::{CondId, ExprId, LevelSet, Node};
+use crate::program::pool::{CondId, ExprId, Node};
 use crate::program::spans::Tabulation;
 
 /// Most operations of a comparison that is looked at level by level.

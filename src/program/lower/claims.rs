@@ -9,8 +9,9 @@ use super::terms::{Expected, Term};
 use super::wide::{AllCuts, refined};
 use super::{Lowering, Programs, Result, keep, once};
 use crate::diag::{Diagnostic, Span, codes};
+use crate::program::bits::InputSet;
 use crate::program::domain::StateSpace;
-use crate::program::pool::{ExprId, InputSet};
+use crate::program::pool::ExprId;
 use crate::program::{Claim, ClaimedPair, Claims, InputId, Output, Program, Written};
 use crate::table::{self, HitPolicy, Table, names};
 

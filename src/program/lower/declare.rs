@@ -6,8 +6,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use super::{Lowering, Result, SINCE, SetId, examples, keep};
 use crate::diag::{Code, Diagnostic, Span, Spanned, codes};
 use crate::program::InputId;
+use crate::program::bits::InputSet;
 use crate::program::domain::{Domain, Input, LevelKind, Levels, MAX_LEVELS, StateSpace};
-use crate::program::pool::InputSet;
 use crate::table::{self, names};
 
 impl<'t> Lowering<'t> {

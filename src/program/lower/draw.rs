@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use super::{Lowering, Result, SetId, keep};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
+use crate::program::bits::LevelSet;
 use crate::program::draw::Draw;
-use crate::program::pool::LevelSet;
 use crate::program::{Domain, InputId};
 use crate::table::draw as written;
 

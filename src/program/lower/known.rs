@@ -7,7 +7,8 @@ use std::collections::HashMap;
 
 use super::Lowering;
 use crate::program::InputId;
-use crate::program::pool::{Cond, CondId, ExprId, LevelSet, Node, Pool};
+use crate::program::bits::LevelSet;
+use crate::program::pool::{Cond, CondId, ExprId, Node, Pool};
 
 /// Conditions whose outcome is known.
 #[derive(Default)]

@@ -10,8 +10,9 @@ use super::terms::{Expected, Term, type_error};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::InputId;
+use crate::program::bits::LevelSet;
 use crate::program::operators::{BinaryOp, Comparison};
-use crate::program::pool::{CondId, ExprId, LevelSet};
+use crate::program::pool::{CondId, ExprId};
 use crate::table::expr::{Expr, ExprKind};
 use crate::text::closest::nearest;
 

@@ -37,8 +37,9 @@ use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
+use super::bits::InputSet;
 use super::domain::{Input, LevelKind, Levels, StateSpace};
-use super::pool::{InputSet, Pool};
+use super::pool::Pool;
 use super::{Assumption, InputId, Program, Written};
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::table::{self, Table, names};

@@ -9,7 +9,7 @@ use super::terms::{Expected, Term};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::Domain;
-use crate::program::pool::LevelSet;
+use crate::program::bits::LevelSet;
 use crate::program::{InputId, LevelTerm};
 use crate::table::expr::{Expr, ExprKind};
 use crate::table::{self, Output, names};

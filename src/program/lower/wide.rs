@@ -11,10 +11,11 @@ use super::terms::{Term, type_error};
 use super::{Lowering, Result, SetId};
 use crate::diag::{Diagnostic, Span, Spanned, codes};
 use crate::program::LevelTerm;
+use crate::program::bits::LevelSet;
 use crate::program::classes::{Classes, Cuts};
 use crate::program::domain::{LevelKind, Levels, MAX_LEVELS};
 use crate::program::operators::{BinaryOp, Comparison, TernaryOp};
-use crate::program::pool::{CondId, ExprId, LevelSet};
+use crate::program::pool::{CondId, ExprId};
 use crate::table;
 
 /// The cuts of inputs, by their names.
