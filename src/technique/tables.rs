@@ -3,7 +3,8 @@
 use std::sync::OnceLock;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
-use crate::program::Program;
+use crate::eval::{Column, Columns};
+use crate::program::{Input, Program, Real};
 use crate::table::Table;
 
 /// A table that comes with Umbrage.
@@ -106,6 +107,25 @@ impl BuiltIn {
     fn lacks(&self, what: String) -> Failure {
         Failure::bare(self.path, Diagnostic::error(codes::NOT_APPLICABLE, format!("the table has {what}")))
     }
+}
+
+/// Points of a program as columns of numbers, each with the name of its input.
+///
+/// # Errors
+/// When the program has other inputs.
+pub fn columns<T: Real, const N: usize>(
+    program: &Program,
+    names: [&str; N],
+    mut numbers: [Vec<T>; N],
+) -> Result<Columns<T>, Failure> {
+    let wrong = |message: String| Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message));
+    let column = |input: &Input| {
+        let place = names.iter().position(|name| *name == input.name)?;
+        Some(Column::Numbers { values: std::mem::take(&mut numbers[place]), present: None })
+    };
+    let columns: Option<Vec<Column<T>>> = program.inputs.iter().map(column).collect();
+    let columns = columns.ok_or_else(|| wrong(format!("`{}` has other parameters than {names:?}", program.name)))?;
+    Columns::from_columns(program, columns).map_err(|error| wrong(format!("`{}`: {error}", program.name)))
 }
 
 #[cfg(test)]

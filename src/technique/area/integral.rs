@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use super::scalar::{Scalar, Vector, area, middle};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::eval::{Batch, Column, Columns};
+use crate::eval::Batch;
 use crate::program::Program;
-use crate::technique::tables::EDGE_INTEGRAL;
+use crate::technique::tables::{EDGE_INTEGRAL, columns};
 
 /// Numbers of an edge: its start, its end, and the normal at the point.
 const EDGE: [&str; 9] = ["ux", "uy", "uz", "vx", "vy", "vz", "nx", "ny", "nz"];
@@ -109,19 +109,12 @@ fn values<T: Scalar>(
     batch: &mut Batch<'static, T>,
     program: &Program,
     names: [&str; 9],
-    mut columns: [Vec<T>; 9],
+    numbers: [Vec<T>; 9],
 ) -> Result<Vec<T>, Failure> {
-    let wrong = |what: String| {
-        let message = format!("`{}`: {what}", program.name);
-        Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message))
+    let columns = columns(program, names, numbers)?;
+    let missing = |_| {
+        let message = format!("a parameter of `{}` has no value", program.name);
+        Failure::bare("tables", Diagnostic::error(codes::NEEDS_FETCH, message))
     };
-    let column = |name: &String| {
-        let place = names.iter().position(|known| known == name);
-        let place = place.ok_or_else(|| wrong(format!("its parameter `{name}` is not known")))?;
-        Ok(Column::Numbers { values: std::mem::take(&mut columns[place]), present: None })
-    };
-    let columns = program.inputs.iter().map(|input| &input.name).map(column).collect::<Result<_, Failure>>()?;
-    let columns = Columns::from_columns(program, columns).map_err(|error| wrong(error.to_string()))?;
-    let results = batch.evaluate(&columns).map_err(|_| wrong("a parameter has no value".to_owned()))?;
-    Ok(results.values(0).to_vec())
+    Ok(batch.evaluate(&columns).map_err(missing)?.values(0).to_vec())
 }

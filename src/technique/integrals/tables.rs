@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::Lobe;
 use super::cells::{Cell, Edge};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::eval::{Batch, Column, Columns, Results};
-use crate::program::{Input, Program};
+use crate::eval::{Batch, Columns, Results};
+use crate::program::Program;
 use crate::technique::Inputs;
-use crate::technique::tables::{DOUBLE_PRODUCT, SPHERICAL_GAUSSIAN};
+use crate::technique::tables::{DOUBLE_PRODUCT, SPHERICAL_GAUSSIAN, columns};
 
 /// The names of the numbers of the function of moments: ∫∫ ω, then ∫∫ ω ω.
 const MOMENTS: [&str; 9] = ["mx", "my", "mz", "mxx", "mxy", "myy", "mxz", "myz", "mzz"];
@@ -74,19 +74,11 @@ impl Tables {
         names: [&str; N],
         rows: impl Iterator<Item = [f64; N]>,
     ) -> Result<Columns<f32>, Failure> {
-        let wrong = |message: String| Failure::bare("tables", Diagnostic::error(codes::NOT_APPLICABLE, message));
         let mut numbers: [Vec<f32>; N] = std::array::from_fn(|_| Vec::with_capacity(rows.size_hint().0));
         for row in rows {
             numbers.iter_mut().zip(row).for_each(|(column, number)| column.push(number as f32));
         }
-        let column = |input: &Input| {
-            let place = names.iter().position(|name| *name == input.name)?;
-            Some(Column::Numbers { values: std::mem::take(&mut numbers[place]), present: None })
-        };
-        let columns: Option<Vec<Column<f32>>> = program.inputs.iter().map(column).collect();
-        let columns =
-            columns.ok_or_else(|| wrong(format!("`{}` has other parameters than {names:?}", program.name)))?;
-        Columns::from_columns(program, columns).map_err(|error| wrong(format!("`{}`: {error}", program.name)))
+        columns(program, names, numbers)
     }
 
     /// No inputs yet, of moments, alpha and beta.
