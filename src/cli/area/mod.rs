@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Arguments, _: &Report) -> Result<Outcome> {
 }
 
 fn answers<T: Scalar>(peeler: &mut Peeler<T>, rows: &[Row]) -> std::result::Result<Vec<Answer>, Failure> {
-    peeler.answers(rows.iter().map(Row::query))
+    peeler.answers(rows.iter().map(|row| row.question.query()))
 }
 
 /// The answers in single precision; in double where one is beyond its range.
@@ -69,7 +69,7 @@ fn in_range(
 ) -> std::result::Result<Vec<Answer>, Failure> {
     let mut all = answers(narrow, rows)?;
     let beyond: Vec<usize> = (0..all.len()).filter(|index| !all[*index].is_finite()).collect();
-    let queries: Vec<Query<'_>> = beyond.iter().map(|index| rows[*index].query()).collect();
+    let queries: Vec<Query<'_>> = beyond.iter().map(|index| rows[*index].question.query()).collect();
     for (index, answer) in beyond.into_iter().zip(wide.answers(queries)?) {
         all[index] = answer;
     }

@@ -9,7 +9,7 @@ use super::values::{FAR, Mistake, Read, direction, entries, faulty, items, polyg
 use crate::cli::input::raw::{self, Object};
 use crate::cli::input::{Problems, shorten};
 use crate::diag::{Diagnostic, Source, Span, codes};
-use crate::technique::area::{Occluder, Query, Shape};
+use crate::technique::area::{Question, Shape};
 
 const SHAPE: &str = "a point is an object as in {\"light\": [[x,y,z], ...], \"point\": [x,y,z], \"normal\": [x,y,z], \
                      \"occluders\": [...]}; `id`, `two_sided` and `ltc` may be left out";
@@ -18,27 +18,8 @@ const SHAPE: &str = "a point is an object as in {\"light\": [[x,y,z], ...], \"po
 pub(super) struct Row {
     /// Its name, as it was given.
     pub(super) id: Value,
-    light: Vec<DVec3>,
-    two_sided: bool,
-    point: DVec3,
-    normal: DVec3,
-    occluders: Vec<Occluder>,
-    shape: Option<Shape>,
-}
-
-impl Row {
     /// The question.
-    pub(super) fn query(&self) -> Query<'_> {
-        Query {
-            light: &self.light,
-            two_sided: self.two_sided,
-            point: self.point,
-            blur: 0.0,
-            normal: self.normal,
-            occluders: self.occluders.iter().collect(),
-            shape: self.shape,
-        }
-    }
+    pub(super) question: Question,
 }
 
 /// Reads all points of a text.
@@ -119,8 +100,7 @@ fn row<'s>(raw: &'s RawValue, id: &Value) -> Read<'s, Row> {
             .map_err(|_| Mistake::new(two_sided, "`two_sided` is true or false"))?,
         None => false,
     };
-    Ok(Row {
-        id: id.clone(),
+    let question = Question {
         light: light(given(corners, "light")?)?,
         two_sided,
         point: vector(given(point, "point")?, "`point`")?,
@@ -133,5 +113,6 @@ fn row<'s>(raw: &'s RawValue, id: &Value) -> Read<'s, Row> {
             None => Vec::new(),
         },
         shape: ltc.map(shape).transpose()?,
-    })
+    };
+    Ok(Row { id: id.clone(), question })
 }

@@ -14,7 +14,7 @@ use crate::scene::{Form, Object, Scene};
 use crate::technique::Frame;
 
 /// Polygonal lights, occluders, and the surfaces that the camera sees.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Lit {
     pub(super) lights: Vec<Polygon>,
     pub(super) occluders: Vec<Occluder>,
@@ -56,7 +56,13 @@ impl Lit {
 
     /// The same with nothing in the way of light.
     pub(super) fn without_occluders(&self) -> Self {
-        Self { occluders: Vec::new(), ..self.clone() }
+        Self {
+            lights: self.lights.clone(),
+            occluders: Vec::new(),
+            surfaces: Arc::clone(&self.surfaces),
+            albedos: self.albedos.clone(),
+            ..*self
+        }
     }
 
     /// The light that a pixel sends to the camera, by that which its surface receives: the sum of the form factors of

@@ -68,13 +68,14 @@ impl Mesh {
                 None => {}
             }
         }
-        let (_, is_closed) = edges(&flat);
+        let (mut edges, is_closed) = edges(&flat);
         if is_closed && volume(&corners, &flat) < 0.0 {
             flat.iter_mut().for_each(|face| face.reverse());
+            // In the order of its own face, an edge now has the other one on its left.
+            edges.iter_mut().for_each(|edge| std::mem::swap(&mut edge.own, &mut edge.other));
         }
         let outline = |face: &Vec<usize>| face.iter().map(|corner| corners[*corner]).collect::<Vec<DVec3>>();
         let normals = flat.iter().map(|face| normal(&outline(face))).collect();
-        let (edges, _) = edges(&flat);
         let mut mesh = Self { corners, faces: flat, normals, edges, form: Form::Open, radius };
         if is_closed {
             mesh.form = if mesh.bulges() { Form::Convex } else { Form::Closed };

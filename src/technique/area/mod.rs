@@ -37,7 +37,7 @@ pub use entry::{
 };
 pub use occluder::Occluder;
 pub use peel::{Bounds, Work};
-pub use point::{Answer, Peeler, Query, Shape};
+pub use point::{Answer, Peeler, Query, Question, Shape};
 pub use scalar::Scalar;
 
 #[cfg(test)]

@@ -41,7 +41,8 @@ impl<T: Scalar> Panel<T> {
 
     /// The heights of points above its plane, on the side of the point that it is seen from.
     pub(super) fn heights(&self, points: &[Vector<T>]) -> Vec<T> {
-        points.iter().map(|at| dot(self.normal, *at) - self.level()).collect()
+        let level = self.level();
+        points.iter().map(|at| dot(self.normal, *at) - level).collect()
     }
 
     /// The product of its normal with any point of its plane; negative.

@@ -76,6 +76,7 @@ fn together<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, seen: &[(usize, &Surfa
             point: point.place,
             blur: lit.blur,
             normal: point.smooth_normal,
+            fraction: false,
             occluders: occluders.as_slice().into(),
             shape: None,
         };

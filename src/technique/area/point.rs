@@ -28,10 +28,45 @@ pub struct Query<'a> {
     pub blur: f64,
     /// The normal at the point; of any length but zero.
     pub normal: DVec3,
+    /// True if [`Answer::fraction`] is asked for, which the light has to be peeled a second time for.
+    pub fraction: bool,
     /// The occluders.
     pub occluders: Cow<'a, [&'a Occluder]>,
     /// The shape that a glossy surface gives to light, if that is asked.
     pub shape: Option<Shape>,
+}
+
+/// A query with all that it refers to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// [`Query::light`]
+    pub light: Vec<DVec3>,
+    /// [`Query::two_sided`]
+    pub two_sided: bool,
+    /// [`Query::point`], which is exact.
+    pub point: DVec3,
+    /// [`Query::normal`]
+    pub normal: DVec3,
+    /// [`Query::occluders`]
+    pub occluders: Vec<Occluder>,
+    /// [`Query::shape`]
+    pub shape: Option<Shape>,
+}
+
+impl Question {
+    /// The query about everything that there is to know.
+    pub fn query(&self) -> Query<'_> {
+        Query {
+            light: &self.light,
+            two_sided: self.two_sided,
+            point: self.point,
+            blur: 0.0,
+            normal: self.normal,
+            fraction: true,
+            occluders: self.occluders.iter().collect(),
+            shape: self.shape,
+        }
+    }
 }
 
 /// A linear transform that takes a distribution of reflected light to a cosine (Heitz et al. 2016).
@@ -47,8 +82,8 @@ pub struct Shape {
 /// The light at a point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Answer {
-    /// The share of the light's area that no occluder hides, the horizon ignored; `None` where it has no area, or the
-    /// point lies in its plane.
+    /// The share of the light's area that no occluder hides, the horizon ignored; `None` where it has no area, the point
+    /// lies in its plane, or it was not asked for.
     pub fraction: Option<f64>,
     /// The share that also lies above the horizon.
     pub fraction_above_horizon: Option<f64>,
@@ -133,9 +168,11 @@ impl<T: Scalar> Peeler<T> {
             Some(cones) if !corners.is_empty() => peel(&self.clipper, corners, cones, work, give),
             _ => {}
         };
-        let mut share = 0.0;
-        visible(panel.corners.clone(), &mut Work::default(), &mut |piece| share += panel.share(piece));
-        answer.fraction = Some(share);
+        if query.fraction {
+            let mut share = 0.0;
+            visible(panel.corners.clone(), &mut Work::default(), &mut |piece| share += panel.share(piece));
+            answer.fraction = Some(share);
+        }
 
         let above = self.horizon.above(&self.clipper, &panel.corners, world);
         let mut work = Work { clips: 1, ..Work::default() };

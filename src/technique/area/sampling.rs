@@ -157,12 +157,24 @@ pub(super) fn ratio(lit: &Lit, estimates: &[Estimate], unshadowed: &[DVec3], fil
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::eval::Interpreter;
+    use crate::program::Value;
+    use crate::technique::tables::PCG;
 
     #[test]
     fn the_stream_is_the_published_one() {
         let values = [(0, 0x07bb_2fe2), (1, 0xa8be_ea3c), (2, 0x7a7e_cc88), (12345, 0xf45e_ad0e)];
         for (state, expected) in values {
             assert_eq!(pcg(state), expected);
+        }
+        // A ray is no place for an interpreter, so that the generator stands here again: as the table has it.
+        let table = PCG.function("hash").unwrap_or_else(|e| panic!("{e}"));
+        let mut interpreter = Interpreter::<f64>::new(table);
+        let mut state = 1;
+        for _ in 0..1000 {
+            let found = interpreter.evaluate(&[Some(Value::Number(f64::from(state)))]).expect("nothing is fetched");
+            state = pcg(state);
+            assert_eq!(found.values, [f64::from(state)]);
         }
         let mut stream = Stream::new([3, 5], 1, 2);
         assert_eq!(stream.0, pcg(3 + pcg(5_u32.wrapping_add(pcg(1_u32.wrapping_add(pcg(2)))))));

@@ -9,37 +9,12 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::mesh::Mesh;
-use super::{Answer, Occluder, Peeler, Query, Scalar, Shape};
+use super::{Answer, Occluder, Peeler, Question, Scalar, Shape};
 use crate::eval::Interpreter;
 use crate::points::random::Random;
 use crate::program::Value;
 use crate::technique::tables::CLOSED_FORMS;
 use scenes::Scene;
-
-/// A query with all that it refers to.
-#[derive(Debug, Clone)]
-struct Question {
-    light: Vec<DVec3>,
-    two_sided: bool,
-    point: DVec3,
-    normal: DVec3,
-    occluders: Vec<Occluder>,
-    shape: Option<Shape>,
-}
-
-impl Question {
-    fn query(&self) -> Query<'_> {
-        Query {
-            light: &self.light,
-            two_sided: self.two_sided,
-            point: self.point,
-            blur: 0.0,
-            normal: self.normal,
-            occluders: self.occluders.iter().collect(),
-            shape: self.shape,
-        }
-    }
-}
 
 fn peeler<T: Scalar>() -> Peeler<T> {
     Peeler::new().unwrap_or_else(|e| panic!("{e}"))
