@@ -10,6 +10,7 @@ pub mod matter;
 mod mesh;
 pub mod rays;
 mod read;
+mod round;
 mod shapes;
 pub mod surfaces;
 pub mod view;
@@ -71,7 +72,7 @@ impl Object {
 }
 
 /// The scenes that come with Umbrage, by name.
-const BUILT_IN: [(&str, &str); 18] = [
+const BUILT_IN: [(&str, &str); 22] = [
     ("abutting", include_str!("../../scenes/abutting.ron")),
     ("boxes", include_str!("../../scenes/boxes.ron")),
     ("columns", include_str!("../../scenes/columns.ron")),
@@ -80,16 +81,20 @@ const BUILT_IN: [(&str, &str); 18] = [
     ("fence", include_str!("../../scenes/fence.ron")),
     ("foliage", include_str!("../../scenes/foliage.ron")),
     ("grazing", include_str!("../../scenes/grazing.ron")),
+    ("hexagon", include_str!("../../scenes/hexagon.ron")),
     ("lattice", include_str!("../../scenes/lattice.ron")),
     ("leaves", include_str!("../../scenes/leaves.ron")),
+    ("opening", include_str!("../../scenes/opening.ron")),
     ("outdoor", include_str!("../../scenes/outdoor.ron")),
     ("poles", include_str!("../../scenes/poles.ron")),
+    ("skittles", include_str!("../../scenes/skittles.ron")),
     ("slope", include_str!("../../scenes/slope.ron")),
     ("studio", include_str!("../../scenes/studio.ron")),
     ("table", include_str!("../../scenes/table.ron")),
     ("teapot", include_str!("../../scenes/teapot.ron")),
     ("text", include_str!("../../scenes/text.ron")),
     ("tilt", include_str!("../../scenes/tilt.ron")),
+    ("trio", include_str!("../../scenes/trio.ron")),
 ];
 
 impl Scene {

@@ -1,6 +1,6 @@
 //! Rays: the first surface that is met, and tests for anything in the way.
 //!
-//! Balls are traced as the triangles that stand for them ([`Rays::new`]) or exactly
+//! Balls and cones are traced as the triangles that stand for them ([`Rays::new`]) or exactly
 //! ([`Rays::exact`]). There are two kinds of tests: from a point that a ray has found
 //! towards a light without extent, and of any open segment.
 //!
@@ -18,7 +18,8 @@ use obvhs::cwbvh::CwBvh;
 use obvhs::cwbvh::builder::build_cwbvh_from_tris;
 use obvhs::ray::{Ray, RayHit};
 
-use super::{Form, Scene, Triangle};
+use super::round::Round;
+use super::{Scene, Triangle};
 
 /// A scene that rays can be sent through.
 #[derive(Debug)]
@@ -32,19 +33,18 @@ pub struct Rays {
     objects: Vec<u32>,
     /// For each triangle the number of the part of its object that it stands for.
     parts: Vec<Option<u32>>,
-    /// Balls that are traced exactly; their triangles are not in the hierarchy.
-    balls: Vec<Ball>,
+    /// What is traced exactly; its triangles are not in the hierarchy.
+    solids: Vec<Exact>,
     /// Distance of the start of a shadow ray from its surface.
     gap: f64,
     /// Largest coordinate, which tells how fine numbers of a precision are.
     reach: f64,
 }
 
-/// A ball that is traced exactly.
+/// A ball or a cone that is traced exactly.
 #[derive(Debug)]
-struct Ball {
-    centre: DVec3,
-    radius: f64,
+struct Exact {
+    solid: Round,
     /// The first of the triangles that stand for it.
     triangle: u32,
 }
@@ -75,25 +75,6 @@ pub struct SurfacePoint {
     pub(crate) triangle: u32,
 }
 
-impl Ball {
-    /// Distance along a ray, whose direction has length 1, to where it enters the ball.
-    fn entry(&self, (start, direction): (DVec3, DVec3)) -> Option<f64> {
-        let offset = start - self.centre;
-        let along = offset.dot(direction);
-        let square = along * along - offset.length_squared() + self.radius * self.radius;
-        let distance = -along - square.max(0.0).sqrt();
-        (square > 0.0 && distance > 0.0).then_some(distance)
-    }
-
-    /// Returns whether an open segment meets its interior.
-    fn meets(&self, from: DVec3, to: DVec3) -> bool {
-        let along = to - from;
-        let nearest = ((self.centre - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        // An end on the surface is on either side of it by rounding.
-        (from + along * nearest - self.centre).length_squared() < (1.0 - 1e-9) * self.radius * self.radius
-    }
-}
-
 impl Drop for Tests<'_> {
     fn drop(&mut self) {
         if let Some(shared) = self.shared {
@@ -121,7 +102,7 @@ impl Rays {
         Self::build(scene, false)
     }
 
-    /// Builds the hierarchy of a scene in which balls are traced exactly.
+    /// Builds the hierarchy of a scene in which balls and cones are traced exactly.
     pub fn exact(scene: &Scene) -> Self {
         Self::build(scene, true)
     }
@@ -129,25 +110,23 @@ impl Rays {
     fn build(scene: &Scene, exact: bool) -> Self {
         let (objects, triangles): (Vec<u32>, Vec<Triangle>) =
             scene.triangles().map(|(object, triangle)| (object as u32, *triangle)).unzip();
-        let (mut parts, mut balls) = (vec![None; triangles.len()], Vec::new());
+        let (mut parts, mut solids) = (vec![None; triangles.len()], Vec::new());
         let mut first = 0;
         for object in &scene.objects {
             for (number, part) in object.parts.iter().enumerate() {
                 parts[first + part.triangles.start..first + part.triangles.end].fill(Some(number as u32));
-                if let Form::Ball { centre, radius } = part.form
-                    && exact
-                {
-                    balls.push(Ball { centre, radius, triangle: (first + part.triangles.start) as u32 });
+                if let (Some(solid), true) = (Round::of(&part.form), exact) {
+                    solids.push(Exact { solid, triangle: (first + part.triangles.start) as u32 });
                 }
             }
             first += object.triangles.len();
         }
-        let is_ball = |number: u32| {
+        let is_round = |number: u32| {
             let object = &scene.objects[objects[number as usize] as usize];
             let part = parts[number as usize].and_then(|part| object.parts.get(part as usize));
-            part.is_some_and(|part| matches!(part.form, Form::Ball { .. }))
+            part.is_some_and(|part| Round::of(&part.form).is_some())
         };
-        let traced: Vec<u32> = (0..triangles.len() as u32).filter(|number| !exact || !is_ball(*number)).collect();
+        let traced: Vec<u32> = (0..triangles.len() as u32).filter(|number| !exact || !is_round(*number)).collect();
         let single = |at: DVec3| Vec3A::from(at.as_vec3());
         let face = |number: &u32| {
             let [v0, v1, v2] = triangles[*number as usize].corners.map(single);
@@ -160,14 +139,14 @@ impl Rays {
         let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         let (lo, hi) = triangles.iter().flat_map(|t| t.corners).fold(start, |(lo, hi), p| (lo.min(p), hi.max(p)));
         let (gap, reach) = (4e-6 * (hi - lo).max_element(), lo.abs().max(hi.abs()).max_element());
-        Self { bvh, faces, numbers, triangles, objects, parts, balls, gap, reach }
+        Self { bvh, faces, numbers, triangles, objects, parts, solids, gap, reach }
     }
 
     pub(crate) fn triangles(&self) -> &[Triangle] {
         &self.triangles
     }
 
-    /// Number of the first triangle that a ray meets; balls apart that are traced exactly.
+    /// Number of the first triangle that a ray meets; balls and cones apart that are traced exactly.
     pub(crate) fn first(&self, ray: (DVec3, DVec3)) -> Option<u32> {
         self.first_face(ray).map(|(number, _)| number)
     }
@@ -211,23 +190,26 @@ impl Rays {
     /// The point that a ray meets first.
     pub(crate) fn see(&self, ray: (DVec3, DVec3)) -> Option<SurfacePoint> {
         let face = self.first_face(ray);
-        let entries = self.balls.iter().filter_map(|ball| Some((ball, ball.entry(ray)?)));
-        let nearest = entries.min_by(|(_, a), (_, b)| a.total_cmp(b));
+        let entries = self.solids.iter().filter_map(|exact| Some((exact, exact.solid.entry(ray)?)));
+        let nearest = entries.min_by(|(_, (a, _)), (_, (b, _))| a.total_cmp(b));
         match (face, nearest) {
-            (Some((_, distance)), Some((ball, entry))) if entry < f64::from(distance) => {
-                Some(self.on_ball(ball, ray, entry))
+            (Some((_, distance)), Some((exact, entry))) if entry.0 < f64::from(distance) => {
+                Some(self.on_solid(exact, ray, entry))
             }
             (Some((number, _)), _) => self.point_on(number, ray),
-            (None, Some((ball, entry))) => Some(self.on_ball(ball, ray, entry)),
+            (None, Some((exact, entry))) => Some(self.on_solid(exact, ray, entry)),
             (None, None) => None,
         }
     }
 
-    fn on_ball(&self, ball: &Ball, (start, direction): (DVec3, DVec3), entry: f64) -> SurfacePoint {
-        let place = start + direction * entry;
-        let normal = (place - ball.centre) / ball.radius;
-        let object = self.objects[ball.triangle as usize];
-        SurfacePoint { place, normal, smooth_normal: normal, object, triangle: ball.triangle }
+    fn on_solid(
+        &self,
+        Exact { triangle, .. }: &Exact,
+        (start, direction): (DVec3, DVec3),
+        (distance, normal): (f64, DVec3),
+    ) -> SurfacePoint {
+        let (place, object) = (start + direction * distance, self.objects[*triangle as usize]);
+        SurfacePoint { place, normal, smooth_normal: normal, object, triangle: *triangle }
     }
 
     /// The number of the part of its object that a point lies on, if that has an exact form.
@@ -237,7 +219,7 @@ impl Rays {
 
     /// Returns whether nothing lies between two places. The ends are excluded: surfaces that they lie on block
     /// nothing there, nor do surfaces seen edge-on; the inside of a closed surface is as open as its outside,
-    /// but for balls that are traced exactly.
+    /// but for balls and cones that are traced exactly.
     pub fn is_open(&self, from: DVec3, to: DVec3) -> bool {
         let length = (to - from).length();
         // Places that a ray has found are as exact as double precision makes them.
@@ -245,7 +227,7 @@ impl Rays {
         if length <= 2.0 * end {
             return true;
         }
-        if self.balls.iter().any(|ball| ball.meets(from, to)) {
+        if self.solids.iter().any(|exact| exact.solid.meets(from, to)) {
             return false;
         }
         let direction = (to - from) / length;
@@ -290,7 +272,7 @@ impl Rays {
     }
 
     /// Returns whether nothing lies between a point and the light in a direction, at a distance that may be infinite.
-    /// Balls that are traced exactly are left out.
+    /// Balls and cones that are traced exactly are left out.
     pub(crate) fn sees_light(&self, point: &SurfacePoint, to_light: DVec3, distance: f64) -> bool {
         let start = point.place + point.normal * self.gap;
         let ray = Ray::new(start.as_vec3().into(), to_light.as_vec3().into(), 0.0, distance as f32);
@@ -317,7 +299,8 @@ mod tests {
 
     const OBJECTS: &str = "(shape: Ground(size: (8, 8))), (shape: Ball(radius: 0.7), at: (1, 0.2, 0), scale: 1.5), \
         (shape: Block(size: (1, 2, 0.5)), at: (-1, 0.5, 0.5), turn: (10, 30, 0), copies: (count: 2, step: (0, 0, -1.5))), \
-        (shape: Polygon(corners: [(0, 1, 2), (1, 1, 2), (1.5, 2, 2), (0.5, 3, 2), (-0.5, 2, 2)]))";
+        (shape: Polygon(corners: [(0, 1, 2), (1, 1, 2), (1.5, 2, 2), (0.5, 3, 2), (-0.5, 2, 2)])), \
+        (shape: Cone(radius: 0.8, height: 1.2), at: (0, 0.3, -1.5), turn: (20, 0, 30), scale: 1.2)";
 
     /// Returns whether a segment meets the interior of a form: a slow way that shares nothing with the fast one.
     fn meets(form: &Form, from: DVec3, to: DVec3) -> bool {
@@ -325,6 +308,11 @@ mod tests {
             Form::Ball { centre, radius } => {
                 (0..=20_000).any(|i| (from.lerp(to, f64::from(i) / 20_000.0) - *centre).length() < *radius)
             }
+            Form::Cone { apex, base, radius } => (0..=20_000).any(|i| {
+                let (down, axis) = (from.lerp(to, f64::from(i) / 20_000.0) - *apex, *base - *apex);
+                let depth = down.dot(axis) / axis.length_squared();
+                depth > 0.0 && depth < 1.0 && (down - depth * axis).length() < depth * radius
+            }),
             Form::Polygon { corners } => {
                 let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
                 let (a, b) = ((from - corners[0]).dot(normal), (to - corners[0]).dot(normal));

@@ -53,6 +53,7 @@ pub static ALL: &[&dyn Technique] = &[
     &area::AREA_UNSHADOWED,
     &area::AREA_SAMPLES,
     &area::AREA_RATIO,
+    &area::search::DISCONTINUITY,
     &area::PEEL,
     &area::EXACT,
     &convolve::CONVOLVE,

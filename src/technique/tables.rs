@@ -52,6 +52,22 @@ built_in! {
     BOX_SILHOUETTE = "box_silhouette";
     /// The light that arrives from a polygon, edge by edge.
     EDGE_INTEGRAL = "edge_integral";
+    /// Ways to look for the discontinuities of an edge.
+    SEARCH_PLAN = "search_plan";
+    /// Configurations of triangles.
+    TRIANGLE_CONFIGURATION = "triangle_configuration";
+    /// Visible parts of triangles.
+    TRIANGLE_REGION = "triangle_region";
+    /// Visible parts of triangles with curves of several points.
+    TRIANGLE_RAYS = "triangle_rays";
+    /// Searches for closest points.
+    CLOSEST_POINT_SETUP = "closest_point_setup";
+    /// Searches for closest points that are worth beginning.
+    CLOSEST_POINT_START = "closest_point_start";
+    /// Steps of a search for a closest point.
+    CLOSEST_POINT_STEP = "closest_point_step";
+    /// Diagonals of quadrilaterals.
+    QUAD_DIAGONAL = "quad_diagonal";
     /// Form factors that have closed forms.
     CLOSED_FORMS = "closed_forms";
     /// Choices of convolution shadows.

@@ -101,3 +101,83 @@ fn malformed_points_are_refused_by_line_and_id_and_nothing_is_written() {
     }
     insta::assert_snapshot!(all);
 }
+
+/// Of the specification, section 4: an occluder before a triangle of light, its configuration and discontinuities.
+const BEFORE_A_TRIANGLE: [(&str, &str, [&[f64]; 3], f64); 3] = [
+    ("[[-0.5,1,1],[1,-0.5,1],[1.5,-0.5,1],[-0.5,1.5,1]]", "C022", [&[0.25, 0.5], &[], &[0.5, 0.75]], 13.0 / 16.0),
+    ("[[-0.5,-0.5,1],[1.5,-0.5,1],[1.5,1.5,1],[-0.5,1.5,1]]", "C112", [&[0.75], &[0.25, 0.75], &[0.25]], 1.0 / 8.0),
+    ("[[1.5,-1,1],[1.5,1.5,1],[-1,1.5,1]]", "C222", [&[0.25, 0.75], &[0.25, 0.75], &[0.25, 0.75]], 3.0 / 16.0),
+];
+
+#[test]
+fn a_search_finds_configurations_and_discontinuities_within_its_tolerance() {
+    let place = Place::new();
+    let row = |(index, (occluder, ..)): (usize, &(&str, &str, [&[f64]; 3], f64))| {
+        format!(
+            r#"{{"id": {index}, "light": [[0,0,2],[4,0,2],[0,4,2]], "two_sided": true, "point": [0,0,0], "normal": [0,0,1],
+                "occluders": [{{"type": "polygon", "v": {occluder}}}]}}"#
+        )
+    };
+    let rows: Vec<String> = BEFORE_A_TRIANGLE.iter().enumerate().map(row).collect();
+    let input = rows.join("\n");
+    for arguments in ["", "--rays 0", "--rays 5 --seed 7", "--precision f32"] {
+        let found = answers(&place, &input, &format!("--method search {arguments}"));
+        assert_eq!(found, answers(&place, &input, &format!("--method search {arguments}")), "the same seed");
+        for (answer, (_, configuration, discontinuities, fraction)) in found.iter().zip(BEFORE_A_TRIANGLE) {
+            assert_eq!(answer["configuration"], configuration, "{answer}");
+            for (edge, expected) in discontinuities.iter().enumerate() {
+                let places: Vec<f64> = serde_json::from_value(answer["discontinuities"][edge].clone()).unwrap();
+                assert_eq!(places.len(), expected.len(), "{answer}");
+                assert!(
+                    places.iter().zip(*expected).all(|(place, expected)| (place - expected).abs() <= 0.05),
+                    "{answer}"
+                );
+            }
+            assert!((number(answer, "fraction") - fraction).abs() < 0.15, "{answer}");
+            assert!((6.0..=129.0).contains(&number(answer, "tests")), "{answer}");
+        }
+    }
+    let other = answers(&place, &input, "--method search --seed 1");
+    assert_ne!(other[0]["discontinuities"], answers(&place, &input, "--method search")[0]["discontinuities"]);
+}
+
+#[test]
+fn a_search_of_lights_with_more_corners_says_what_it_found_of_each_triangle() {
+    let place = Place::new();
+    let input = format!(
+        r#"[{{"id": "quad", {LIGHT}}},
+            {{"id": "hidden", {LIGHT}, "occluders": [{{"type": "polygon", "v": [[-9,-9,1],[9,-9,1],[9,9,1],[-9,9,1]]}}]}},
+            {{"id": "in its plane", "light": [[1,0,0],[2,0,0],[2,1,0]], "point": [0,0,0], "normal": [0,0,1]}},
+            {{"id": "inside", {LIGHT}, "occluders": [{{"type": "box", "center": [0,0,0], "axes": [[1,0,0],[0,1,0],[0,0,1]]}}]}},
+            {{"id": "several", {LIGHT}, "occluders": [{{"type": "polygon", "v": [[-0.4,-0.1,1],[-0.2,-0.1,1],[-0.2,0.1,1]]}},
+                                                      {{"type": "polygon", "v": [[0.4,-0.1,1],[0.2,-0.1,1],[0.2,0.1,1]]}}]}}]"#
+    );
+    let found = answers(&place, &input, "--method search");
+    let names = |index: usize| found[index]["configuration"].clone();
+    assert_eq!(names(0), serde_json::json!(["C000", "C000"]));
+    assert_eq!((number(&found[0], "fraction"), number(&found[1], "fraction")), (1.0, 0.0));
+    assert!((number(&found[0], "form_factor") - 0.239456470460774).abs() < 1e-12);
+    assert_eq!(
+        (&found[2]["fraction"], &found[2]["configuration"], &found[2]["tests"]),
+        (&Value::Null, &Value::Null, &0.into())
+    );
+    assert_eq!(found[2]["discontinuities"], serde_json::json!([[], [], []]));
+    assert_eq!(number(&found[3], "form_factor"), 0.0);
+    let beyond: Vec<bool> = found.iter().map(|answer| answer["overflow"].as_bool().unwrap()).collect();
+    assert_eq!(beyond, [false, false, false, false, true], "several occluders are not what it is made for");
+}
+
+#[test]
+fn options_of_the_search_are_for_the_search() {
+    let place = Place::new();
+    place.file("points.json", &format!("{{{LIGHT}}}"));
+    for option in ["--rays 3", "--seed 3"] {
+        let said = place.run(&format!("area --input points.json {option}"));
+        assert_eq!(said.code, Some(2));
+        assert!(said.err.contains("is for `--method search`"), "{}", said.err);
+    }
+    for wrong in ["--rays 6", "--rays -1", "--seed x", "--seed 4294967296"] {
+        let said = place.run(&format!("area --input points.json --method search {wrong}"));
+        assert_eq!(said.code, Some(2), "{wrong}");
+    }
+}

@@ -112,6 +112,10 @@ enum ShapeRon<'a> {
         radius: Raw<'a>,
         height: Raw<'a>,
     },
+    Cone {
+        radius: Raw<'a>,
+        height: Raw<'a>,
+    },
     Fence {
         bars: Raw<'a>,
         width: Raw<'a>,
@@ -318,6 +322,9 @@ impl<'a> Read<'a> {
             }
             ShapeRon::Cylinder { radius, height } => {
                 Shape::Cylinder { radius: self.length(radius)?, height: self.length(height)? }
+            }
+            ShapeRon::Cone { radius, height } => {
+                Shape::Cone { radius: self.length(radius)?, height: self.length(height)? }
             }
             ShapeRon::Fence { bars, width, gap, height } => Shape::Fence {
                 bars: self.count(bars, 10_000)?,

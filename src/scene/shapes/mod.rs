@@ -43,6 +43,13 @@ pub enum Shape {
         /// Its height.
         height: f64,
     },
+    /// A cone on its base.
+    Cone {
+        /// The radius of its base.
+        radius: f64,
+        /// Its height.
+        height: f64,
+    },
     /// Upright bars with two rails.
     Fence {
         /// Number of bars.
@@ -127,6 +134,14 @@ impl Shape {
             Shape::Cylinder { radius, height } => {
                 column(&mut out, *radius, *height);
                 lid(&mut out, *radius, 0.0);
+            }
+            Shape::Cone { radius, height } => {
+                surface(&mut out, ROUND, 1, |u, v| {
+                    let place = rim(u) * (radius * v) + DVec3::Y * (height * (1.0 - v));
+                    (place, (rim(u) * *height + DVec3::Y * *radius).normalize())
+                });
+                lid(&mut out, *radius, 0.0);
+                out.stand_for(0, Form::Cone { apex: DVec3::Y * *height, base: DVec3::ZERO, radius: *radius });
             }
             Shape::Fence { bars, width, gap, height } => fence(&mut out, *bars, *width, *gap, *height),
             Shape::Lattice { cells, size, width } => lattice(&mut out, *cells, *size, *width),

@@ -41,6 +41,15 @@ pub enum Form {
         /// Its radius.
         radius: f64,
     },
+    /// A solid cone with a circular base.
+    Cone {
+        /// Its apex.
+        apex: DVec3,
+        /// The middle of its base.
+        base: DVec3,
+        /// The radius of its base.
+        radius: f64,
+    },
     /// A flat convex polygon.
     Polygon {
         /// Its corners, one after the other around it.
@@ -77,6 +86,10 @@ impl Form {
         match self {
             Form::Ball { centre, radius } => {
                 Form::Ball { centre: by.transform_point3(*centre), radius: radius * factor }
+            }
+            Form::Cone { apex, base, radius } => {
+                let [apex, base] = [*apex, *base].map(|place| by.transform_point3(place));
+                Form::Cone { apex, base, radius: radius * factor }
             }
             Form::Polygon { corners } => {
                 Form::Polygon { corners: corners.iter().map(|corner| by.transform_point3(*corner)).collect() }

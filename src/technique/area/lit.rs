@@ -65,6 +65,17 @@ impl Lit {
         }
     }
 
+    /// The same with other surfaces in the picture.
+    pub(super) fn with_surfaces(&self, surfaces: Arc<Surfaces>) -> Self {
+        Self {
+            lights: self.lights.clone(),
+            occluders: self.occluders.clone(),
+            surfaces,
+            albedos: self.albedos.clone(),
+            ..*self
+        }
+    }
+
     /// The light that a pixel sends to the camera, by that which its surface receives: the sum of the form factors of
     /// lights, each times its radiance.
     pub(super) fn sent(&self, point: Option<&SurfacePoint>, received: DVec3) -> DVec3 {
@@ -87,8 +98,8 @@ fn of_object(object: &Object) -> Vec<Occluder> {
         match &part.form {
             Form::Polygon { corners } => all.push(Occluder::polygon(corners.clone())),
             Form::Box { centre, halves } => all.push(Occluder::block(*centre, *halves)),
-            // Rays meet the triangles that stand for it, and so does light.
-            Form::Ball { .. } => {
+            // Light is hidden by the triangles that stand for it.
+            Form::Ball { .. } | Form::Cone { .. } => {
                 let triangles = object.triangles[part.triangles.clone()].iter();
                 all.push(Occluder::mesh(mesh(triangles.map(|triangle| triangle.corners))));
             }

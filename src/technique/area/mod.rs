@@ -28,6 +28,7 @@ mod picture;
 pub mod point;
 mod sampling;
 mod scalar;
+pub mod search;
 mod tabulated;
 mod tiles;
 mod viewpoint;

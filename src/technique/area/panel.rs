@@ -62,9 +62,11 @@ impl<T: Scalar> Panel<T> {
         self.corners.iter().zip(next).map(|(from, to)| cross(*to, *from))
     }
 
-    /// The share of its area that a part of it has.
+    /// The share of its area that a part of it has; negative if the part goes the other way round.
     pub(super) fn share(&self, part: &[Vector<T>]) -> f64 {
-        length(area(part)) / length(self.normal)
+        let wide = |vector: Vector<T>| vector.map(T::to_f64);
+        let normal = wide(self.normal);
+        dot(wide(area(part)), normal) / dot(normal, normal)
     }
 
     /// Returns whether it is so small for its distance that a sum over its edges cancels.

@@ -56,6 +56,46 @@ pub(super) fn peeled<T: Scalar>(lit: &Lit, progress: &Progress<'_>) -> Result<Pi
     Ok(all)
 }
 
+/// The mean of the lights' visible fractions at every pixel, exactly; 1 where no light is seen at all.
+///
+/// # Errors
+/// Never for the tables that come with Umbrage.
+pub(super) fn fractions(lit: &Lit) -> Result<Vec<f64>, Failure> {
+    let width = lit.surfaces.width as usize;
+    let row = |peeler: &mut Result<Peeler<f64>, Failure>, points: &[Option<SurfacePoint>]| {
+        let peeler = peeler.as_mut().map_err(|failure| failure.clone())?;
+        let mut fractions = vec![1.0; points.len()];
+        for (fraction, point) in fractions.iter_mut().zip(points) {
+            let Some(point) = point else { continue };
+            let occluders: Vec<Vec<&Occluder>> = lit
+                .lights
+                .iter()
+                .map(|light| {
+                    let near = candidates(lit, light, std::iter::once(point.place));
+                    near.into_iter().map(|index| &lit.occluders[index]).collect()
+                })
+                .collect();
+            let queries = lit.lights.iter().zip(&occluders).map(|(light, occluders)| Query {
+                light: &light.corners,
+                two_sided: light.two_sided,
+                point: point.place,
+                blur: lit.blur,
+                normal: point.smooth_normal,
+                fraction: true,
+                occluders: occluders.as_slice().into(),
+                shape: None,
+            });
+            let seen: Vec<f64> = peeler.answers(queries)?.iter().filter_map(|answer| answer.fraction).collect();
+            if !seen.is_empty() {
+                *fraction = seen.iter().sum::<f64>() / seen.len() as f64;
+            }
+        }
+        Ok(fractions)
+    };
+    let rows = lit.surfaces.points.par_chunks(width.max(1)).map_init(Peeler::<f64>::new, row);
+    Ok(rows.collect::<Result<Vec<Vec<f64>>, Failure>>()?.concat())
+}
+
 fn tile<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, column: usize, row: usize) -> Result<Tile, Failure> {
     let seen: Vec<(usize, &SurfacePoint)> = pixels(lit, column, row).collect();
     together(lit, peeler, &seen)

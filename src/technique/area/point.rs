@@ -107,10 +107,28 @@ pub struct Peeler<T> {
 }
 
 /// Sums of a point.
-struct Wanted {
+pub(super) struct Wanted {
     shadowed: usize,
     unshadowed: usize,
     shaped: Option<(usize, usize)>,
+}
+
+/// Gives the visible pieces of a light above some planes through the point, by their normals, and counts the work.
+pub(super) type Pieces<'p, T> = dyn FnMut(&[Vector<T>], &mut Work, &mut dyn FnMut(&[Vector<T>])) + 'p;
+
+/// A light and what may hide it, as seen from a point.
+pub(super) struct Seen<T> {
+    pub(super) from: Viewpoint,
+    pub(super) panel: Panel<T>,
+    /// `None` if everything is hidden.
+    pub(super) cones: Option<Vec<Cone<T>>>,
+}
+
+impl Wanted {
+    fn new<T: Scalar>(query: &Query<'_>, sums: &mut Sums<T>) -> Self {
+        let (shadowed, unshadowed) = (sums.begin(), sums.begin());
+        Self { shadowed, unshadowed, shaped: query.shape.map(|_| (sums.begin(), sums.begin())) }
+    }
 }
 
 impl Answer {
@@ -140,6 +158,11 @@ impl<T: Scalar> Peeler<T> {
     pub fn answers<'q>(&mut self, queries: impl IntoIterator<Item = Query<'q>>) -> Result<Vec<Answer>, Failure> {
         let mut sums = Sums::default();
         let parts: Vec<(Answer, Wanted)> = queries.into_iter().map(|query| self.answer(&query, &mut sums)).collect();
+        self.totals(sums, parts)
+    }
+
+    /// The answers, once the sums that they want are evaluated.
+    pub(super) fn totals(&mut self, sums: Sums<T>, parts: Vec<(Answer, Wanted)>) -> Result<Vec<Answer>, Failure> {
         let totals = self.integrals.evaluate(sums)?;
         Ok(parts
             .into_iter()
@@ -153,29 +176,63 @@ impl<T: Scalar> Peeler<T> {
     }
 
     fn answer(&self, query: &Query<'_>, sums: &mut Sums<T>) -> (Answer, Wanted) {
-        let wanted = Wanted {
-            shadowed: sums.begin(),
-            unshadowed: sums.begin(),
-            shaped: query.shape.map(|_| (sums.begin(), sums.begin())),
+        let Some(scene) = self.seen(query) else { return self.nothing(query, sums) };
+        let mut pieces = |horizons: &[Vector<T>], work: &mut Work, give: &mut dyn FnMut(&[Vector<T>])| {
+            let corners = self.above(&scene.panel, horizons);
+            work.clips += horizons.len() as u64;
+            match &scene.cones {
+                Some(cones) if !corners.is_empty() => peel(&self.clipper, corners, cones, work, give),
+                _ => {}
+            }
         };
+        self.add_up(query, &scene.panel, sums, &mut pieces)
+    }
+
+    /// The answer where there is no light.
+    pub(super) fn nothing(&self, query: &Query<'_>, sums: &mut Sums<T>) -> (Answer, Wanted) {
+        (Answer::default(), Wanted::new(query, sums))
+    }
+
+    /// A light and what may hide it, as seen from a point; `None` if the light has no area there.
+    pub(super) fn seen(&self, query: &Query<'_>) -> Option<Seen<T>> {
+        let from = Viewpoint::new(query.point, query.light, query.blur)?;
+        let panel = Panel::<T>::new(query.light, &from)?;
+        let cones = self.cones(&query.occluders, &from, &panel);
+        Some(Seen { from, panel, cones })
+    }
+
+    /// The part of a light above some planes through the point, of which the first is the horizon.
+    fn above(&self, panel: &Panel<T>, horizons: &[Vector<T>]) -> Vec<Vector<T>> {
+        let Some((horizon, others)) = horizons.split_first() else { return panel.corners.clone() };
+        let above = self.horizon.above(&self.clipper, &panel.corners, *horizon);
+        others.iter().fold(above, |corners, normal| self.inside(&corners, *normal))
+    }
+
+    /// The part of a loop above a plane through the point.
+    pub(super) fn inside(&self, corners: &[Vector<T>], normal: Vector<T>) -> Vec<Vector<T>> {
+        let heights: Vec<T> = corners.iter().map(|corner| dot(normal, *corner)).collect();
+        self.clipper.inside(corners, &heights)
+    }
+
+    /// What the visible pieces of a light come to, of which `pieces` gives those above some planes through the point.
+    pub(super) fn add_up(
+        &self,
+        query: &Query<'_>,
+        panel: &Panel<T>,
+        sums: &mut Sums<T>,
+        pieces: &mut Pieces<'_, T>,
+    ) -> (Answer, Wanted) {
+        let wanted = Wanted::new(query, sums);
         let mut answer = Answer::default();
-        let Some(from) = Viewpoint::new(query.point, query.light, query.blur) else { return (answer, wanted) };
-        let Some(panel) = Panel::<T>::new(query.light, &from) else { return (answer, wanted) };
         let normal = unit(query.normal);
         let world: Vector<T> = rounded(normal.to_array());
-        let cones = self.cones(&query.occluders, &from, &panel);
-        let visible = |corners: Vec<Vector<T>>, work: &mut Work, give: &mut dyn FnMut(&[Vector<T>])| match &cones {
-            Some(cones) if !corners.is_empty() => peel(&self.clipper, corners, cones, work, give),
-            _ => {}
-        };
         if query.fraction {
             let mut share = 0.0;
-            visible(panel.corners.clone(), &mut Work::default(), &mut |piece| share += panel.share(piece));
+            pieces(&[], &mut Work::default(), &mut |piece| share += panel.share(piece));
             answer.fraction = Some(share);
         }
 
-        let above = self.horizon.above(&self.clipper, &panel.corners, world);
-        let mut work = Work { clips: 1, ..Work::default() };
+        let mut work = Work::default();
         let emits = query.two_sided || panel.in_front;
         let is_far = panel.is_far();
         let mut add = |sum: usize, piece: &[Vector<T>]| match is_far {
@@ -183,26 +240,27 @@ impl<T: Scalar> Peeler<T> {
             false => sums.add(sum, piece, world),
         };
         let mut share = 0.0;
-        visible(above.clone(), &mut work, &mut |piece| {
+        pieces(&[world], &mut work, &mut |piece| {
             share += panel.share(piece);
             if emits {
                 add(wanted.shadowed, piece);
             }
         });
         (answer.fraction_above_horizon, answer.work) = (Some(share), work);
+        let above = self.above(panel, &[world]);
         if emits && !above.is_empty() {
             add(wanted.unshadowed, &above);
         }
         if let (Some(shape), Some((shadowed, unshadowed)), true) = (query.shape, wanted.shaped, emits) {
             let frame = shape.rows(normal).map(rounded::<T>);
             let up = [T::from_f64(0.0), T::from_f64(0.0), T::from_f64(1.0)];
-            let heights: Vec<T> = above.iter().map(|corner| dot(frame[2], *corner)).collect();
-            let above = self.clipper.inside(&above, &heights);
             let mut add = |sum: usize, piece: &[Vector<T>]| {
                 let turned: Vec<Vector<T>> = piece.iter().map(|corner| frame.map(|row| dot(row, *corner))).collect();
                 sums.add(sum, &turned, up);
             };
-            visible(above.clone(), &mut Work::default(), &mut |piece| add(shadowed, piece));
+            let horizons = [world, frame[2]];
+            pieces(&horizons, &mut Work::default(), &mut |piece| add(shadowed, piece));
+            let above = self.above(panel, &horizons);
             if !above.is_empty() {
                 add(unshadowed, &above);
             }

@@ -30,6 +30,11 @@ impl Stream {
         self.0 = pcg(self.0);
         f64::from(self.0 >> 8) / f64::from(1 << 24)
     }
+
+    /// The next whole number below a count.
+    pub(super) fn below(&mut self, count: usize) -> usize {
+        (self.uniform() * count as f64) as usize
+    }
 }
 
 /// Sums over the samples of a pixel: with and without occluders, for each channel.
@@ -61,6 +66,24 @@ pub(super) fn estimates(lit: &Lit, rays: &Rays, samples: u32, frame: u32, progre
         row
     };
     lit.surfaces.points.par_chunks(width.max(1)).enumerate().flat_map_iter(row).collect()
+}
+
+/// The mean of the lights' visible fractions at every pixel, by 400 rays to each light; 1 without a surface.
+pub(super) fn fractions(lit: &Lit, rays: &Rays) -> Vec<f64> {
+    const SIDE: u32 = 20;
+    let one = |point: &Option<SurfacePoint>| {
+        let Some(point) = point else { return 1.0 };
+        let tests = rays.tests(None);
+        let mut open = 0_u32;
+        for light in &lit.lights {
+            let area = light.area();
+            let share = |index: u32| (f64::from(index) + 0.5) / f64::from(SIDE);
+            let places = (0..SIDE * SIDE).map(|index| DVec2::new(share(index % SIDE), share(index / SIDE)));
+            open += places.filter(|at| tests.is_open(point.place, on_polygon(light, area, *at))).count() as u32;
+        }
+        f64::from(open) / (f64::from(SIDE * SIDE) * lit.lights.len() as f64)
+    };
+    lit.surfaces.points.par_iter().map(one).collect()
 }
 
 /// The form factor of a light, with and without occluders, by places in a grid of strata.

@@ -158,7 +158,7 @@ impl Surroundings {
                     plates.push(Plate { corners: corners.iter().copied().map(upright).collect() });
                     Ok(Body::Plate(plates.len() - 1))
                 }
-                Form::Box { .. } => Err(wrong()),
+                Form::Box { .. } | Form::Cone { .. } => Err(wrong()),
             };
             bodies.push(object.parts.iter().map(|part| &part.form).map(body).collect::<Result<Vec<Body>, Failure>>()?);
         }

@@ -1,0 +1,253 @@
+//! The search as a technique.
+
+use std::sync::Arc;
+
+use super::super::entry::SEED;
+use super::super::lit::Lit;
+use super::super::picture::fractions;
+use super::picture::{Coherence, Picture, Pixels};
+use super::{Options, Rule};
+use crate::diag::Failure;
+use crate::scene::light::Lights;
+use crate::scene::rays::Rays;
+use crate::scene::surfaces::Surfaces;
+#[cfg(feature = "gpu")]
+use crate::technique::prepared::{Detail, Pass};
+use crate::technique::rendered::{LIGHT, NONE};
+use crate::technique::setting::{Range, Value};
+use crate::technique::tables::{
+    BuiltIn, CLOSEST_POINT_SETUP, CLOSEST_POINT_START, CLOSEST_POINT_STEP, EDGE_INTEGRAL, QUAD_DIAGONAL, SEARCH_PLAN,
+    TRIANGLE_CONFIGURATION, TRIANGLE_RAYS, TRIANGLE_REGION,
+};
+use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
+
+/// Points of each curve.
+pub const BOUNDARY_RAYS: Setting = Setting {
+    name: "boundary_rays",
+    doc: "points of each curve of a shadow's border; 0 looks for closest points, as the paper does",
+    default: Value::Whole(3),
+    range: Range::Whole(0, Options::MOST_RAYS),
+    label: "",
+};
+
+/// Tolerance of bisection.
+pub const TOLERANCE: Setting = Setting {
+    name: "tolerance",
+    doc: "largest error of a discontinuity, as a part of its edge",
+    default: Value::Number(0.05),
+    range: Range::Number(1e-9, 0.5),
+    label: "",
+};
+
+/// Tolerance of searches.
+pub const GAP: Setting = Setting {
+    name: "gap",
+    doc: "widest part of an edge that a search leaves untested",
+    default: Value::Number(0.25),
+    range: Range::Number(1e-3, 1.0),
+    label: "",
+};
+
+/// Tolerance of closest points.
+pub const SPACING: Setting = Setting {
+    name: "spacing",
+    doc: "part of an edge within which a closest point is found",
+    default: Value::Number(0.333),
+    range: Range::Number(1e-6, 1.0),
+    label: "",
+};
+
+/// The rule by which a search for a closest point is not begun.
+pub const RULE: Setting = Setting {
+    name: "rule",
+    doc: "bulges that are looked into: those beyond a straight line in the distance, or beyond a chord",
+    default: Value::Word("line"),
+    range: Range::Word(&["line", "chord"]),
+    label: "",
+};
+
+/// The order in which pixels learn from their neighbours.
+pub const COHERENCE: Setting = Setting {
+    name: "coherence",
+    doc: "neighbours that pixels learn from: along lines, on a checkerboard, or none",
+    default: Value::Word("lines"),
+    range: Range::Word(&["lines", "checkerboard", "none"]),
+    label: "",
+};
+
+/// The truth that fractions are compared with.
+pub const AGAINST: Setting = Setting {
+    name: "against",
+    doc: "what the layer `error` compares visible fractions with: `nothing`, `exact` ones, or 400 rays to each light",
+    default: Value::Word("nothing"),
+    range: Range::Word(&["nothing", "exact", "rays"]),
+    label: "",
+};
+
+/// Layer of the configuration of the first light's first triangle.
+pub const CONFIGURATION: &str = "configuration";
+/// Layer of tests of visibility.
+pub const TESTS: &str = "tests";
+/// Layer of the visible share of the lights, from 0 to 1.
+pub const FRACTION: &str = "fraction";
+/// Layer of the error of that share.
+pub const ERROR: &str = "error";
+
+static TABLES: [&BuiltIn; 9] = [
+    &SEARCH_PLAN,
+    &QUAD_DIAGONAL,
+    &TRIANGLE_CONFIGURATION,
+    &CLOSEST_POINT_SETUP,
+    &CLOSEST_POINT_START,
+    &CLOSEST_POINT_STEP,
+    &TRIANGLE_REGION,
+    &TRIANGLE_RAYS,
+    &EDGE_INTEGRAL,
+];
+
+/// Area lights by search, as a technique.
+#[derive(Debug)]
+pub struct Entry;
+
+/// Area lights by search.
+pub static DISCONTINUITY: Entry = Entry;
+
+impl Technique for Entry {
+    fn name(&self) -> &'static str {
+        "discontinuity"
+    }
+
+    fn doc(&self) -> &'static str {
+        "light of polygons past anything, whose visible part is searched for by tests of visibility, on the CPU"
+    }
+
+    fn tables(&self) -> &'static [&'static BuiltIn] {
+        &TABLES
+    }
+
+    fn lights(&self) -> Lights {
+        Lights::POLYGON
+    }
+
+    fn settings(&self) -> &'static [Setting] {
+        const ALL: [Setting; 8] = [BOUNDARY_RAYS, SEED, TOLERANCE, GAP, SPACING, RULE, COHERENCE, AGAINST];
+        &ALL
+    }
+
+    fn abilities(&self) -> &'static [Ability] {
+        &[Ability::Passes]
+    }
+
+    fn truth(&self) -> Option<&'static str> {
+        Some(super::super::EXACT.name())
+    }
+
+    fn needs_device(&self) -> bool {
+        false
+    }
+
+    fn prepare<'s>(&self, frame: &Frame<'s>) -> Result<Box<dyn Prepared<'s> + 's>, Failure> {
+        Ok(Box::new(Searched::new(frame)?))
+    }
+}
+
+/// The truth about a pixel's lights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Against {
+    Nothing,
+    Exact,
+    Rays,
+}
+
+/// A frame under polygonal lights.
+struct Searched {
+    lit: Arc<Lit>,
+    rays: Arc<Rays>,
+    options: Options,
+    seed: u32,
+    coherence: Coherence,
+    against: Against,
+}
+
+impl Searched {
+    fn new(frame: &Frame<'_>) -> Result<Self, Failure> {
+        let settings = &frame.settings;
+        // Rays meet balls and cones exactly, and so the surfaces of the frame, which are triangles, do not do.
+        let rays = frame.shared("exact", || Ok(Rays::exact(frame.scene)))?;
+        let lit = frame.shared("searched", || {
+            let (width, height) = frame.size();
+            let surfaces = Surfaces::new(frame.scene, &rays, width, height);
+            Ok(Lit::of(frame, DISCONTINUITY.name())?.with_surfaces(Arc::new(surfaces)))
+        })?;
+        Ok(Self {
+            lit,
+            rays,
+            options: Options {
+                rays: settings.whole(&BOUNDARY_RAYS),
+                tolerance: settings.number(&TOLERANCE),
+                gap: settings.number(&GAP),
+                spacing: settings.number(&SPACING),
+                rule: if settings.word(&RULE) == "chord" { Rule::Chord } else { Rule::Line },
+            },
+            seed: settings.whole(&SEED),
+            coherence: match settings.word(&COHERENCE) {
+                "checkerboard" => Coherence::Checkerboard,
+                "none" => Coherence::None,
+                _ => Coherence::Lines,
+            },
+            against: match settings.word(&AGAINST) {
+                "exact" => Against::Exact,
+                "rays" => Against::Rays,
+                _ => Against::Nothing,
+            },
+        })
+    }
+
+    fn pixels(&self, progress: &Progress<'_>) -> Result<Pixels, Failure> {
+        let Self { lit, rays, options, seed, .. } = self;
+        Picture { lit, rays, options: *options, seed: *seed }.pixels(self.coherence, progress)
+    }
+
+    fn truth(&self) -> Result<Option<Vec<f64>>, Failure> {
+        match self.against {
+            Against::Nothing => Ok(None),
+            Against::Exact => fractions(&self.lit).map(Some),
+            Against::Rays => Ok(Some(super::super::sampling::fractions(&self.lit, &self.rays))),
+        }
+    }
+}
+
+impl<'s> Prepared<'s> for Searched {
+    fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
+        let pixels = self.pixels(progress)?;
+        let points = self.lit.surfaces.points.iter();
+        let sent = points.zip(&pixels.received).map(|(point, received)| self.lit.sent(point.as_ref(), *received));
+        let rendered = Rendered::default()
+            .with(LIGHT, Samples::Colours(sent.map(|light| light.as_vec3().to_array()).collect()))
+            .with(
+                CONFIGURATION,
+                Samples::Counts(pixels.configuration.iter().map(|found| found.unwrap_or(NONE)).collect()),
+            )
+            .with(TESTS, Samples::Counts(pixels.tests.iter().map(|tests| *tests as u32).collect()))
+            .with(FRACTION, Samples::Numbers(pixels.fraction.iter().map(|fraction| *fraction as f32).collect()));
+        let error = |truth: Vec<f64>| {
+            let off = pixels.fraction.iter().zip(truth).map(|(found, truth)| (found - truth) as f32);
+            Samples::Numbers(off.collect())
+        };
+        Ok(match self.truth()?.map(error) {
+            Some(error) => rendered.with(ERROR, error),
+            None => rendered,
+        })
+    }
+
+    fn set_frame(&mut self, frame: &Frame<'s>) -> Result<(), Failure> {
+        *self = Self::new(frame)?;
+        Ok(())
+    }
+
+    #[cfg(feature = "gpu")]
+    fn passes(&mut self, _: Detail) -> Result<Vec<Pass<'_>>, Failure> {
+        let own = &*self;
+        Ok(vec![Pass::on_cpu(DISCONTINUITY.name(), "light", move || own.pixels(&|_| {}).map(drop))])
+    }
+}
