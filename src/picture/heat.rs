@@ -1,4 +1,4 @@
-//! Heat maps: counts as colours.
+//! Heat maps: counts and numbers as colours.
 
 use image::{Rgb, RgbImage};
 
@@ -12,9 +12,35 @@ pub fn counts(width: u32, height: u32, counts: &[u32], most: u32) -> RgbImage {
     })
 }
 
+/// A map of numbers: grey, from black for 0 to white for the largest; where some are negative, black for 0, orange for what
+/// is above and blue for what is below, the brighter the larger.
+pub fn numbers(width: u32, height: u32, numbers: &[f32]) -> RgbImage {
+    let most = numbers.iter().filter(|number| number.is_finite()).map(|number| number.abs()).fold(0.0, f32::max);
+    let is_signed = numbers.iter().any(|number| *number < 0.0);
+    RgbImage::from_fn(width, height, |x, y| {
+        let number = numbers.get((y * width + x) as usize).copied().unwrap_or(0.0);
+        let part = if most > 0.0 { (number / most).clamp(-1.0, 1.0) } else { 0.0 };
+        let level = |scale: f32| (part.abs() * scale).round() as u8;
+        match (is_signed, part < 0.0) {
+            (false, _) => Rgb([level(255.0); 3]),
+            (true, false) => Rgb([level(255.0), level(150.0), level(40.0)]),
+            (true, true) => Rgb([level(60.0), level(150.0), level(255.0)]),
+        }
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_grey_or_have_the_colour_of_their_sign() {
+        let grey = numbers(3, 1, &[0.0, 1.0, 2.0]);
+        assert_eq!([0, 1, 2].map(|x| grey.get_pixel(x, 0).0), [[0; 3], [128; 3], [255; 3]]);
+        let signed = numbers(3, 1, &[-0.5, 0.0, 1.0]);
+        let [below, zero, above] = [0, 1, 2].map(|x| signed.get_pixel(x, 0).0);
+        assert!(below[2] > below[0] && above[0] > above[2] && zero == [0; 3], "{below:?} {above:?}");
+    }
 
     #[test]
     fn more_is_brighter() {

@@ -220,6 +220,25 @@ impl Polygon {
         0.5 * self.cross().length()
     }
 
+    /// A place on it, evenly distributed for numbers from 0 to 1 that are.
+    pub fn place(&self, DVec2 { x, y }: DVec2) -> DVec3 {
+        let area = self.area();
+        // A fan of triangles, chosen by their areas along x, which is then as evenly distributed within the one chosen.
+        let first = self.corners[0];
+        let mut rest = x * area;
+        let last = self.corners.len() - 2;
+        for (index, pair) in self.corners[1..].windows(2).enumerate() {
+            let (u, v) = (pair[0] - first, pair[1] - first);
+            let own = 0.5 * u.cross(v).length();
+            if rest <= own || index + 1 == last {
+                let (s, t) = ((rest / own).clamp(0.0, 1.0).sqrt(), y);
+                return first + s * ((1.0 - t) * u + t * v);
+            }
+            rest -= own;
+        }
+        first
+    }
+
     /// The distance of a place from its plane: positive before the side that emits.
     pub fn distance(&self, place: DVec3) -> f64 {
         self.corners.first().map_or(0.0, |first| self.normal().dot(place - *first))
@@ -295,5 +314,22 @@ impl Punctual {
             Punctual::Directional(light) => View::along(light.direction, casts, &all),
             Punctual::Spot(light) => View::cone(light.position, light.target, light.angle, &all),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_on_a_polygon_are_evenly_distributed() {
+        let corners = vec![DVec3::ZERO, DVec3::X * 2.0, DVec3::new(2.0, 1.0, 0.0), DVec3::new(0.0, 3.0, 0.0)];
+        let light = Polygon { corners, two_sided: false, colour: [1.0; 3] };
+        let count = 200;
+        let share = |index: u32| (f64::from(index) + 0.5) / f64::from(count);
+        let at = |index: u32| light.place(DVec2::new(share(index / count), share(index % count)));
+        let mean = (0..count * count).map(at).sum::<DVec3>() / f64::from(count * count);
+        // The centroid of the trapezium.
+        assert!((mean - DVec3::new(5.0 / 6.0, 13.0 / 12.0, 0.0)).length() < 1e-3, "{mean}");
     }
 }

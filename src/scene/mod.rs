@@ -10,7 +10,7 @@ pub mod matter;
 mod mesh;
 pub mod rays;
 mod read;
-mod round;
+pub(crate) mod round;
 mod shapes;
 pub mod surfaces;
 pub mod view;

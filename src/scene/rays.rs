@@ -146,6 +146,24 @@ impl Rays {
         &self.triangles
     }
 
+    /// The triangles that rays are tested against.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn traced(&self) -> impl Iterator<Item = &Triangle> {
+        self.numbers.iter().map(|number| &self.triangles[*number as usize])
+    }
+
+    /// The largest coordinate.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn reach(&self) -> f64 {
+        self.reach
+    }
+
+    /// The solids that are traced exactly.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn solids(&self) -> impl Iterator<Item = Round> {
+        self.solids.iter().map(|exact| exact.solid)
+    }
+
     /// Number of the first triangle that a ray meets; balls and cones apart that are traced exactly.
     pub(crate) fn first(&self, ray: (DVec3, DVec3)) -> Option<u32> {
         self.first_face(ray).map(|(number, _)| number)

@@ -6,7 +6,7 @@ use super::Form;
 
 /// A solid with a curved surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Round {
+pub(crate) enum Round {
     Ball { centre: DVec3, radius: f64 },
     Cone { apex: DVec3, base: DVec3, radius: f64 },
 }

@@ -37,15 +37,21 @@
 //! **Area lights** (`peel`) is a whole compute shader, `area_light`, around modules of the tables
 //! `clip_step`, `box_silhouette` and `edge_silhouette` and of the functions `term` and `small` of
 //! `edge_integral`.
+//!
+//! **Area lights by search** (`discontinuity`) is a whole compute shader, `area_search`, around modules of the tables
+//! `search_plan`, `quad_diagonal`, `triangle_configuration`, `triangle_region`, `triangle_rays`, `closest_point_setup`,
+//! `closest_point_start`, `closest_point_step` and `clip_step`, and of the functions `term` and `small` of
+//! `edge_integral` and `hash`, `unit` and `jitter` of `pcg`. It provides what these fetch.
 
 /// The names of the skeletons.
-pub const NAMES: [&str; 8] = ["hard", "pcf", "smsr", "rsmss", "rpcf", "casefree", "integrals", "peel"];
+pub const NAMES: [&str; 9] = ["hard", "pcf", "smsr", "rsmss", "rpcf", "casefree", "integrals", "peel", "discontinuity"];
 
 /// The text around the modules of a technique's tables, as exact as the technique was published.
 pub fn wgsl(name: &str) -> Option<String> {
     match name {
         "integrals" => Some(INTEGRALS.to_owned()),
         "peel" => Some(AREA.to_owned()),
+        "discontinuity" => Some(SEARCH.to_owned()),
         _ => Revectorised::EXACT.wgsl(name),
     }
 }
@@ -55,6 +61,9 @@ pub(crate) const INTEGRALS: &str = include_str!("integrals.wgsl");
 
 /// Polygons of light at surfaces, cut and added up.
 pub(crate) const AREA: &str = include_str!("area.wgsl");
+
+/// The visible part of polygons of light, searched for by rays.
+pub(crate) const SEARCH: &str = include_str!("search.wgsl");
 
 /// The reads of a shadow map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -127,7 +136,7 @@ mod tests {
 
     #[test]
     fn every_skeleton_of_a_picture_is_whole_with_its_table() {
-        for name in NAMES.into_iter().filter(|name| !["integrals", "peel"].contains(name)) {
+        for name in NAMES.into_iter().filter(|name| !["integrals", "peel", "discontinuity"].contains(name)) {
             let table = match name {
                 "smsr" => Some("tables/smsr.ron"),
                 "rsmss" | "rpcf" => Some("tables/rsmss.ron"),

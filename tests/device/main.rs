@@ -5,6 +5,7 @@ mod adapter;
 mod area_agreement;
 mod diff;
 mod reordering;
+mod search_agreement;
 mod shadow_agreement;
 #[path = "../support/mod.rs"]
 mod support;

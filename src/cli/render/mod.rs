@@ -194,20 +194,26 @@ fn draw(arguments: &Arguments, frame: &Frame<'_>, answers: &[Answer<'_>]) -> std
     image.bytes(format)
 }
 
-/// A layer of counts as a heat map.
+/// A layer of counts or numbers as a heat map.
 fn layer(arguments: &Arguments, frame: &Frame<'_>, answer: &Answer<'_>) -> std::result::Result<RgbImage, Failure> {
     let name = arguments.layer.as_deref().unwrap_or_default();
-    let Some(counts) = answer.rendered.counts(name) else {
-        let with = answer.rendered.layers.iter().filter(|layer| matches!(layer.samples, Samples::Counts(_)));
-        let with: Vec<&str> = with.map(|layer| layer.name).collect();
-        let message = format!("{} has no layer of counts called `{name}`", answer.technique);
-        let error = Diagnostic::error(codes::RENDER, message).help(format!("it has {}", technique::and(&with)));
-        return Err(Failure::bare("", error));
-    };
-    // No surface is no count.
-    let shown: Vec<u32> = counts.iter().map(|count| if *count >= DEFAULT { 0 } else { *count }).collect();
     let (width, height) = frame.size();
-    Ok(heat::counts(width, height, &shown, shown.iter().copied().max().unwrap_or_default()))
+    match answer.rendered.layer(name) {
+        Some(Samples::Counts(counts)) => {
+            // No surface is no count.
+            let shown: Vec<u32> = counts.iter().map(|count| if *count >= DEFAULT { 0 } else { *count }).collect();
+            Ok(heat::counts(width, height, &shown, shown.iter().copied().max().unwrap_or_default()))
+        }
+        Some(Samples::Numbers(numbers)) => Ok(heat::numbers(width, height, numbers)),
+        Some(Samples::Colours(_)) | None => {
+            let is_map = |samples: &Samples| matches!(samples, Samples::Counts(_) | Samples::Numbers(_));
+            let with = answer.rendered.layers.iter().filter(|layer| is_map(&layer.samples));
+            let with: Vec<&str> = with.map(|layer| layer.name).collect();
+            let message = format!("{} has no layer of counts or numbers called `{name}`", answer.technique);
+            let error = Diagnostic::error(codes::RENDER, message).help(format!("it has {}", technique::and(&with)));
+            Err(Failure::bare("", error))
+        }
+    }
 }
 
 /// A contact sheet. Where the true picture is on it, the others have their error beside the name.

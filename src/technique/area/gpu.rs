@@ -142,7 +142,7 @@ struct FrameRow {
 
 /// A `Light` of the skeleton.
 #[derive(ShaderType)]
-struct LightRow {
+pub(super) struct LightRow {
     colour: Vec3,
     first: u32,
     count: u32,
@@ -151,7 +151,7 @@ struct LightRow {
 
 /// A `Corner` of the skeleton.
 #[derive(ShaderType)]
-struct CornerRow {
+pub(super) struct CornerRow {
     high: Vec3,
     low: Vec3,
 }
@@ -180,7 +180,7 @@ struct FaceRow {
 
 /// A `Surface` of the skeleton.
 #[derive(ShaderType, Default)]
-struct SurfaceRow {
+pub(super) struct SurfaceRow {
     high: Vec3,
     seen: u32,
     low: Vec3,
@@ -199,13 +199,28 @@ const HOST: u32 = 4;
 const MOST_EDGES: usize = 128;
 
 /// A place as the nearest numbers, and what rounding to them lost.
-fn halves(at: DVec3) -> CornerRow {
+pub(super) fn halves(at: DVec3) -> CornerRow {
     let high = at.as_vec3();
     CornerRow { high, low: (at - high.as_dvec3()).as_vec3() }
 }
 
+/// Lights, and the corners of all of them.
+pub(super) fn light_rows(lights: &[Polygon]) -> (Vec<LightRow>, Vec<CornerRow>) {
+    let (mut rows, mut corners) = (Vec::new(), Vec::new());
+    for light in lights {
+        rows.push(LightRow {
+            colour: Vec3::from_array(light.colour.map(|channel| channel as f32)),
+            first: corners.len() as u32,
+            count: light.corners.len() as u32,
+            two_sided: light.two_sided.into(),
+        });
+        corners.extend(light.corners.iter().copied().map(halves));
+    }
+    (rows, corners)
+}
+
 impl SurfaceRow {
-    fn of(point: Option<&crate::scene::rays::SurfacePoint>) -> Self {
+    pub(super) fn of(point: Option<&crate::scene::rays::SurfacePoint>) -> Self {
         let Some(point) = point else { return Self::default() };
         let CornerRow { high, low } = halves(point.place);
         Self { high, seen: 1, low, normal: point.smooth_normal.as_vec3() }
@@ -223,18 +238,11 @@ struct World {
 
 impl World {
     fn new(lit: &Lit) -> Self {
-        let mut world = Self { lights: vec![], corners: vec![], bodies: vec![], faces: vec![], words: vec![] };
+        let (lights, corners) = light_rows(&lit.lights);
+        let mut world = Self { lights, corners, bodies: vec![], faces: vec![], words: vec![] };
         let tiles = [lit.surfaces.width, lit.surfaces.height].map(|pixels| (pixels as usize).div_ceil(SIDE));
         world.words.resize(2 * lit.lights.len() * tiles[0] * tiles[1], 0);
         for (index, light) in lit.lights.iter().enumerate() {
-            let first = world.corners.len() as u32;
-            world.corners.extend(light.corners.iter().copied().map(halves));
-            world.lights.push(LightRow {
-                colour: Vec3::from_array(light.colour.map(|channel| channel as f32)),
-                first,
-                count: light.corners.len() as u32,
-                two_sided: light.two_sided.into(),
-            });
             // The bodies of an occluder depend on where the light's plane is.
             let bodies: Vec<_> = lit.occluders.iter().map(|occluder| world.add(occluder, light)).collect();
             for row in 0..tiles[1] {

@@ -76,10 +76,9 @@ pub(super) fn fractions(lit: &Lit, rays: &Rays) -> Vec<f64> {
         let tests = rays.tests(None);
         let mut open = 0_u32;
         for light in &lit.lights {
-            let area = light.area();
             let share = |index: u32| (f64::from(index) + 0.5) / f64::from(SIDE);
             let places = (0..SIDE * SIDE).map(|index| DVec2::new(share(index % SIDE), share(index / SIDE)));
-            open += places.filter(|at| tests.is_open(point.place, on_polygon(light, area, *at))).count() as u32;
+            open += places.filter(|at| tests.is_open(point.place, light.place(*at))).count() as u32;
         }
         f64::from(open) / (f64::from(SIDE * SIDE) * lit.lights.len() as f64)
     };
@@ -99,7 +98,7 @@ fn at_point(tests: &Tests<'_>, point: &SurfacePoint, light: &Polygon, samples: u
         let at = DVec2::new(share / f64::from(across), (f64::from(row) + stream.uniform()) / f64::from(rows));
         // A row with fewer strata has less weight for each of its samples.
         let weight = 1.0 / (f64::from(across) * f64::from(rows));
-        let place = on_polygon(light, area, at);
+        let place = light.place(at);
         let towards = place - point.place;
         let square = towards.length_squared();
         let cosine = point.smooth_normal.dot(towards);
@@ -115,24 +114,6 @@ fn at_point(tests: &Tests<'_>, point: &SurfacePoint, light: &Polygon, samples: u
         }
     }
     (with, without)
-}
-
-/// A place on a polygon, evenly distributed for numbers that are.
-fn on_polygon(light: &Polygon, area: f64, DVec2 { x, y }: DVec2) -> DVec3 {
-    // A fan of triangles, chosen by their areas along x, which is then as evenly distributed within the one chosen.
-    let first = light.corners[0];
-    let mut rest = x * area;
-    let last = light.corners.len() - 2;
-    for (index, pair) in light.corners[1..].windows(2).enumerate() {
-        let (u, v) = (pair[0] - first, pair[1] - first);
-        let own = 0.5 * u.cross(v).length();
-        if rest <= own || index + 1 == last {
-            let (s, t) = ((rest / own).clamp(0.0, 1.0).sqrt(), y);
-            return first + s * ((1.0 - t) * u + t * v);
-        }
-        rest -= own;
-    }
-    first
 }
 
 /// Sizes of the filter of the ratio estimator.
@@ -202,17 +183,5 @@ mod tests {
         let mut stream = Stream::new([3, 5], 1, 2);
         assert_eq!(stream.0, pcg(3 + pcg(5_u32.wrapping_add(pcg(1_u32.wrapping_add(pcg(2)))))));
         assert!((0..1000).all(|_| (0.0..1.0).contains(&stream.uniform())));
-    }
-
-    #[test]
-    fn places_on_a_polygon_are_evenly_distributed() {
-        let corners = vec![DVec3::ZERO, DVec3::X * 2.0, DVec3::new(2.0, 1.0, 0.0), DVec3::new(0.0, 3.0, 0.0)];
-        let light = Polygon { corners, two_sided: false, colour: [1.0; 3] };
-        let count = 200;
-        let share = |index: u32| (f64::from(index) + 0.5) / f64::from(count);
-        let at = |index: u32| on_polygon(&light, light.area(), DVec2::new(share(index / count), share(index % count)));
-        let mean = (0..count * count).map(at).sum::<DVec3>() / f64::from(count * count);
-        // The centroid of the trapezium.
-        assert!((mean - DVec3::new(5.0 / 6.0, 13.0 / 12.0, 0.0)).length() < 1e-3, "{mean}");
     }
 }

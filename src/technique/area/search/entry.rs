@@ -5,9 +5,13 @@ use std::sync::Arc;
 use super::super::entry::SEED;
 use super::super::lit::Lit;
 use super::super::picture::fractions;
+#[cfg(feature = "gpu")]
+use super::gpu::Searching;
 use super::picture::{Coherence, Picture, Pixels};
 use super::{Options, Rule};
 use crate::diag::Failure;
+#[cfg(feature = "gpu")]
+use crate::gpu::timing::Stopwatch;
 use crate::scene::light::Lights;
 use crate::scene::rays::Rays;
 use crate::scene::surfaces::Surfaces;
@@ -19,7 +23,7 @@ use crate::technique::tables::{
     BuiltIn, CLOSEST_POINT_SETUP, CLOSEST_POINT_START, CLOSEST_POINT_STEP, EDGE_INTEGRAL, QUAD_DIAGONAL, SEARCH_PLAN,
     TRIANGLE_CONFIGURATION, TRIANGLE_RAYS, TRIANGLE_REGION,
 };
-use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
+use crate::technique::{Ability, Executor, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
 /// Points of each curve.
 pub const BOUNDARY_RAYS: Setting = Setting {
@@ -69,7 +73,7 @@ pub const RULE: Setting = Setting {
 /// The order in which pixels learn from their neighbours.
 pub const COHERENCE: Setting = Setting {
     name: "coherence",
-    doc: "neighbours that pixels learn from: along lines, on a checkerboard, or none",
+    doc: "neighbours that pixels learn from: along lines (on a GPU on a checkerboard), on a checkerboard, or none",
     default: Value::Word("lines"),
     range: Range::Word(&["lines", "checkerboard", "none"]),
     label: "",
@@ -118,7 +122,7 @@ impl Technique for Entry {
     }
 
     fn doc(&self) -> &'static str {
-        "light of polygons past anything, whose visible part is searched for by tests of visibility, on the CPU"
+        "light of polygons past anything, whose visible part is searched for by tests of visibility"
     }
 
     fn tables(&self) -> &'static [&'static BuiltIn] {
@@ -142,10 +146,6 @@ impl Technique for Entry {
         Some(super::super::EXACT.name())
     }
 
-    fn needs_device(&self) -> bool {
-        false
-    }
-
     fn prepare<'s>(&self, frame: &Frame<'s>) -> Result<Box<dyn Prepared<'s> + 's>, Failure> {
         Ok(Box::new(Searched::new(frame)?))
     }
@@ -159,8 +159,19 @@ enum Against {
     Rays,
 }
 
+/// The machine that searches.
+enum Machine<'s> {
+    Cpu,
+    #[cfg(feature = "gpu")]
+    Gpu(Box<Searching<'s>>),
+    #[cfg(not(feature = "gpu"))]
+    #[expect(dead_code, reason = "keeps the lifetime in builds without GPU support")]
+    Never(&'s std::convert::Infallible),
+}
+
 /// A frame under polygonal lights.
-struct Searched {
+struct Searched<'s> {
+    machine: Machine<'s>,
     lit: Arc<Lit>,
     rays: Arc<Rays>,
     options: Options,
@@ -169,8 +180,8 @@ struct Searched {
     against: Against,
 }
 
-impl Searched {
-    fn new(frame: &Frame<'_>) -> Result<Self, Failure> {
+impl<'s> Searched<'s> {
+    fn new(frame: &Frame<'s>) -> Result<Self, Failure> {
         let settings = &frame.settings;
         // Rays meet balls and cones exactly, and so the surfaces of the frame, which are triangles, do not do.
         let rays = frame.shared("exact", || Ok(Rays::exact(frame.scene)))?;
@@ -179,7 +190,13 @@ impl Searched {
             let surfaces = Surfaces::new(frame.scene, &rays, width, height);
             Ok(Lit::of(frame, DISCONTINUITY.name())?.with_surfaces(Arc::new(surfaces)))
         })?;
+        let machine = match frame.on {
+            #[cfg(feature = "gpu")]
+            Executor::Gpu(gpu) => Machine::Gpu(Box::new(Searching::new(gpu)?)),
+            Executor::Cpu => Machine::Cpu,
+        };
         Ok(Self {
+            machine,
             lit,
             rays,
             options: Options {
@@ -203,9 +220,30 @@ impl Searched {
         })
     }
 
-    fn pixels(&self, progress: &Progress<'_>) -> Result<Pixels, Failure> {
+    fn picture(&self) -> Picture<'_> {
         let Self { lit, rays, options, seed, .. } = self;
-        Picture { lit, rays, options: *options, seed: *seed }.pixels(self.coherence, progress)
+        Picture { lit, rays, options: *options, seed: *seed }
+    }
+
+    /// Returns whether a device lets pixels learn from their neighbours, which it does on a checkerboard.
+    #[cfg(feature = "gpu")]
+    fn learns(&self) -> bool {
+        self.coherence != Coherence::None
+    }
+
+    fn pixels(&self, progress: &Progress<'_>) -> Result<Pixels, Failure> {
+        match &self.machine {
+            Machine::Cpu => self.picture().pixels(self.coherence, progress),
+            #[cfg(feature = "gpu")]
+            Machine::Gpu(searching) => {
+                let picture = self.picture();
+                let pixels = searching.pixels(&picture, &searching.place(&picture, self.learns())?);
+                progress(u64::from(self.lit.surfaces.height));
+                pixels
+            }
+            #[cfg(not(feature = "gpu"))]
+            Machine::Never(never) => match **never {},
+        }
     }
 
     fn truth(&self) -> Result<Option<Vec<f64>>, Failure> {
@@ -217,7 +255,7 @@ impl Searched {
     }
 }
 
-impl<'s> Prepared<'s> for Searched {
+impl<'s> Prepared<'s> for Searched<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
         let pixels = self.pixels(progress)?;
         let points = self.lit.surfaces.points.iter();
@@ -248,6 +286,13 @@ impl<'s> Prepared<'s> for Searched {
     #[cfg(feature = "gpu")]
     fn passes(&mut self, _: Detail) -> Result<Vec<Pass<'_>>, Failure> {
         let own = &*self;
-        Ok(vec![Pass::on_cpu(DISCONTINUITY.name(), "light", move || own.pixels(&|_| {}).map(drop))])
+        let name = DISCONTINUITY.name();
+        Ok(vec![match &own.machine {
+            Machine::Cpu => Pass::on_cpu(name, "light", move || own.pixels(&|_| {}).map(drop)),
+            Machine::Gpu(searching) => {
+                let placed = searching.place(&own.picture(), own.learns())?;
+                Pass::new(name, "compute", None, move |stopwatch: &Stopwatch<'_>| searching.time(&placed, stopwatch))
+            }
+        }])
     }
 }

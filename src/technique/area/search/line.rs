@@ -7,6 +7,9 @@ use glam::DVec3;
 
 use super::Search;
 
+/// Gaps that are narrower than the widest by no more than this part of it are ties in every precision.
+const ALIKE: f64 = 1e-5;
+
 /// A segment on a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Line {
@@ -60,7 +63,8 @@ impl Search<'_> {
             if widest < self.options.gap {
                 return None;
             }
-            let ties: Vec<usize> = (0..tested.len() - 1).filter(|index| gap(*index) == widest).collect();
+            let wide = |index: &usize| gap(*index) >= widest * (1.0 - ALIKE);
+            let ties: Vec<usize> = (0..tested.len() - 1).filter(wide).collect();
             let chosen = match *ties {
                 [only] => only,
                 _ => ties[self.stream.below(ties.len())],

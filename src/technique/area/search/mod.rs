@@ -19,6 +19,8 @@
 mod curve;
 mod edge;
 mod entry;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod line;
 mod options;
 mod picture;

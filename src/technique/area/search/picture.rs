@@ -39,6 +39,18 @@ pub(super) struct Pixels {
     pub(super) tests: Vec<u64>,
 }
 
+impl Pixels {
+    /// Pixels where nothing is seen.
+    pub(super) fn new(count: usize) -> Self {
+        Self {
+            received: vec![DVec3::ZERO; count],
+            fraction: vec![1.0; count],
+            configuration: vec![None; count],
+            tests: vec![0; count],
+        }
+    }
+}
+
 /// The search of a picture.
 pub(super) struct Picture<'p> {
     pub(super) lit: &'p Lit,
@@ -75,12 +87,7 @@ impl Picture<'_> {
     /// Never for the tables that come with Umbrage.
     pub(super) fn pixels(&self, coherence: Coherence, progress: &Progress<'_>) -> Result<Pixels, Failure> {
         let (width, height) = (self.lit.surfaces.width as usize, self.lit.surfaces.height as usize);
-        let mut all = Pixels {
-            received: vec![DVec3::ZERO; width * height],
-            fraction: vec![1.0; width * height],
-            configuration: vec![None; width * height],
-            tests: vec![0; width * height],
-        };
+        let mut all = Pixels::new(width * height);
         let rows = |count: usize| (0..height).step_by(count).map(move |row| row..height.min(row + count));
         let line = |row: usize| row * width..(row + 1) * width;
         match coherence {
@@ -113,6 +120,20 @@ impl Picture<'_> {
         Ok(all)
     }
 
+    /// Searches some pixels again, each for itself.
+    ///
+    /// # Errors
+    /// Never for the tables that come with Umbrage.
+    #[cfg(feature = "gpu")]
+    pub(super) fn search_again(&self, some: &[usize], all: &mut Pixels) -> Result<(), Failure> {
+        let portions = some.chunks(64).map(<[usize]>::to_vec).collect();
+        for part in self.search(portions, Neighbour::None, &|_| {})? {
+            part.pixels.iter().for_each(|pixel| all.received[*pixel] = DVec3::ZERO);
+            self.take(all, &part);
+        }
+        Ok(())
+    }
+
     /// Searches some sequences of pixels.
     fn search(
         &self,
@@ -124,7 +145,7 @@ impl Picture<'_> {
         let one = |finder: &mut Result<Finder<f64>, Failure>, (index, order): (usize, Vec<usize>)| {
             let finder = finder.as_mut().map_err(|failure| failure.clone())?;
             let part = self.part(finder, &order, from)?;
-            progress((self.lit.surfaces.height as usize - index * rows).min(rows) as u64);
+            progress((self.lit.surfaces.height as usize).saturating_sub(index * rows).min(rows) as u64);
             Ok(part)
         };
         let new = || Finder::<f64>::new(self.options);
