@@ -40,6 +40,7 @@ pub mod explain;
 pub mod format;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub mod jury;
 #[cfg(feature = "cli")]
 pub mod lsp;
 #[cfg(feature = "report")]

@@ -13,9 +13,10 @@ pub(crate) mod text;
 mod values;
 
 use crate::diag::Failure;
-use crate::program::Program;
+use crate::program::{InputId, Program, Value};
 
 pub use sheet::{html, page, svg};
+pub use values::{Scale, colour, spread};
 
 /// The panels of a table, drawn.
 #[derive(Debug, Clone)]
@@ -33,6 +34,21 @@ pub struct Panel {
     body: String,
     /// Its height.
     height: i32,
+    /// The picture in it; absent where no input was found that leads to the case.
+    pub shown: Option<Shown>,
+}
+
+/// The large picture of a panel: the value around a point.
+#[derive(Debug, Clone)]
+pub struct Shown {
+    /// The point, one value per input; fetched inputs may be absent.
+    pub point: Vec<Option<Value>>,
+    /// The input that grows from left to right over its domain.
+    pub across: Option<InputId>,
+    /// The input that grows from top to bottom.
+    pub down: Option<InputId>,
+    /// Left, top, width and height of the picture, in units of the drawing.
+    pub place: [i32; 4],
 }
 
 /// Width of a panel, in units of the drawing.
@@ -72,8 +88,8 @@ impl Atlas {
 impl Panel {
     fn of(program: &Program, index: usize, shares: Option<&[f64]>, scale: &values::Scale) -> Result<Self, Failure> {
         let share = shares.and_then(|shares| shares.get(index).copied());
-        let (body, height) = panel::draw(program, index, share, scale)?;
-        Ok(Panel { id: program.rows[index].id, body, height })
+        let (body, height, shown) = panel::draw(program, index, share, scale)?;
+        Ok(Panel { id: program.rows[index].id, body, height, shown })
     }
 
     /// The panel as an SVG document of its own.

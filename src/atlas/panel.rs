@@ -3,10 +3,10 @@
 use image::RgbaImage;
 use maud::{Markup, html};
 
-use super::PANEL_WIDTH;
 use super::cell::{CELL, Cell, STUB};
 use super::text::{self, LineText};
 use super::values::{self, Axes, Scale};
+use super::{PANEL_WIDTH, Shown};
 use crate::diag::Failure;
 use crate::explain::reach::{self, Arrival, Reach};
 use crate::program::draw::Draw;
@@ -22,20 +22,25 @@ const WIDE: usize = 43;
 const LARGE: u32 = 96;
 const SMALL: u32 = 24;
 
-/// Draws the panel of a row; returns the drawing and its height.
+/// Draws the panel of a row; returns the drawing, its height, and what its picture shows.
 pub(super) fn draw(
     program: &Program,
     index: usize,
     share: Option<f64>,
     scale: &Scale,
-) -> Result<(String, i32), Failure> {
+) -> Result<(String, i32, Option<Shown>), Failure> {
     let row = &program.rows[index];
     let reached = reach::reach(program, index);
     let shown = reach::example(program, index).or_else(|| reached.smallest.clone());
     let mut y = 0;
     let heading = heading(row.id, &row.doc, &mut y);
+    let mut picture = None;
     let drawing = match &shown {
-        Some(arrival) => self::drawing(program, index, arrival, scale, &mut y)?,
+        Some(arrival) => {
+            let (drawing, shown) = self::drawing(program, index, arrival, scale, &mut y)?;
+            picture = Some(shown);
+            drawing
+        }
         None => {
             y += 26;
             html! { text.a-s x=(MARGIN) y=(y - 8) { "no input that leads here was found" } }
@@ -45,7 +50,7 @@ pub(super) fn draw(
     let lines = lines(program, index, &reached, shown.as_ref(), scale, &mut y)?;
     let footing = footing(program, index, &reached, share, &mut y);
     let body = html! { (heading) (drawing) (guard) (lines) (footing) };
-    Ok((body.into_string(), y))
+    Ok((body.into_string(), y, picture))
 }
 
 /// The number of the case and what it is.
@@ -62,7 +67,13 @@ fn heading(id: u32, doc: &str, y: &mut i32) -> Markup {
     }
 }
 
-fn drawing(program: &Program, index: usize, arrival: &Arrival, scale: &Scale, y: &mut i32) -> Result<Markup, Failure> {
+fn drawing(
+    program: &Program,
+    index: usize,
+    arrival: &Arrival,
+    scale: &Scale,
+    y: &mut i32,
+) -> Result<(Markup, Shown), Failure> {
     let axes = Axes::of(program, index);
     let large = values::picture(program, index, &arrival.point, axes, scale, LARGE);
     let image = values::address(&large)?;
@@ -101,7 +112,8 @@ fn drawing(program: &Program, index: usize, arrival: &Arrival, scale: &Scale, y:
         }
     };
     *y = at + 4;
-    Ok(markup)
+    let Axes { across, down } = axes;
+    Ok((markup, Shown { point: arrival.point.clone(), across, down, place: [left, top, CELL, CELL] }))
 }
 
 /// The point shown, as `--at` takes it, without what is spread out in the picture.

@@ -22,14 +22,16 @@ const LEVELS: [[u8; 3]; 8] = [
 
 /// The numbers that are black and white.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Scale {
-    pub(super) black: f64,
-    pub(super) white: f64,
+pub struct Scale {
+    /// The number that is black.
+    pub black: f64,
+    /// The number that is white.
+    pub white: f64,
 }
 
 impl Scale {
     /// From 0 to 1, unless the examples of a table go beyond that.
-    pub(super) fn of(program: &Program) -> Self {
+    pub fn of(program: &Program) -> Self {
         let expected = program.examples.iter().flat_map(|example| example.expected.iter().copied());
         let (black, white) = expected.fold((0.0_f64, 1.0_f64), |(lo, hi), value| (lo.min(value), hi.max(value)));
         Scale { black, white }
@@ -63,6 +65,25 @@ impl Axes {
     }
 }
 
+/// A point with the inputs on the axes as they are in a pixel of a picture of `size` by `size`; other inputs stay.
+pub fn spread(
+    program: &Program,
+    point: &[Option<Value>],
+    axes: [(Option<InputId>, u32); 2],
+    size: u32,
+) -> Vec<Option<Value>> {
+    let mut point = point.to_vec();
+    for (axis, place) in axes {
+        let Some(input) = axis else { continue };
+        let domain = &program.inputs[input.index()].domain;
+        if let Some((lo, hi)) = domain.range() {
+            let share = (f64::from(place) + 0.5) / f64::from(size);
+            point[input.index()] = Some(Value::Number(domain.point(lo * (1.0 - share) + hi * share)));
+        }
+    }
+    point
+}
+
 /// The value of a row over the axes, other inputs as at `point`. Where the row
 /// is not taken the picture is transparent.
 pub(super) fn picture(
@@ -74,16 +95,8 @@ pub(super) fn picture(
     size: u32,
 ) -> RgbaImage {
     let mut interpreter = Interpreter::<f32>::new(program);
-    let mut point = point.to_vec();
     RgbaImage::from_fn(size, size, |x, y| {
-        for (axis, place) in [(axes.across, x), (axes.down, y)] {
-            let Some(input) = axis else { continue };
-            let domain = &program.inputs[input.index()].domain;
-            if let Some((lo, hi)) = domain.range() {
-                let share = (f64::from(place) + 0.5) / f64::from(size);
-                point[input.index()] = Some(Value::Number(domain.point(lo * (1.0 - share) + hi * share)));
-            }
-        }
+        let point = spread(program, point, [(axes.across, x), (axes.down, y)], size);
         match interpreter.evaluate(&point) {
             Ok(outcome) if outcome.row == Some(row) => {
                 let values = program.output.numbers(&outcome.values);
@@ -96,7 +109,7 @@ pub(super) fn picture(
 }
 
 /// The colour of a result: grey for a number, colours for more or for levels. A list has that of its length.
-pub(super) fn colour(reading: &Reading<'_>, scale: &Scale) -> [u8; 3] {
+pub fn colour(reading: &Reading<'_>, scale: &Scale) -> [u8; 3] {
     let grey = |value: f64| {
         let share = (value - scale.black) / (scale.white - scale.black);
         (share.clamp(0.0, 1.0) * 255.0).round() as u8

@@ -1,39 +1,23 @@
 //! The differential test: every plan × entry point × language on a device,
 //! against the interpreter.
 //!
-//! A result that equals the `f32` interpreter's in case and every bit is right.
-//! One that does not may still be legal: WGSL fixes no rounding mode, so near
-//! the line where a comparison switches, and in the last bits, more than one
-//! answer is admissible. Then the interval interpreter judges, which knows
-//! WGSL's accuracy rules: inside what it admits is legal, outside is a bug. What is
-//! legal only since WGSL admits sums and products in another order is counted by itself.
-//! Fetches have no such leeway: one that the interpreter did not make, or made
-//! twice, is a bug, unless another case or line was legally taken.
-//!
-//! A plan that was proved equal over the reals, but computes otherwise, is
-//! judged by its proof: a value that is no further off than the proof allows is
-//! legal, and so is one that the table has at inputs that far off. One that
-//! makes use of assumptions is compared where these hold.
-
-use std::fmt::Write as _;
+//! A [`jury`](crate::jury) judges; here plans are chosen, points made and kernels run.
 
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::emit::kernel::columns::Entry;
-use crate::eval::{Batch, Columns, Interpreter, IntervalInterpreter, Results};
-use crate::gpu::{Gpu, Kernel, Language, Outputs};
+use crate::eval::{Batch, Columns};
+use crate::gpu::{Gpu, Kernel, Language};
+use crate::jury::{Judge, Leeway};
 use crate::plan::{Plan, PlanOptions, Shape, Weights};
-use crate::program::reachable;
-use crate::program::{Domain, Program, Scalar};
+use crate::program::{Program, reachable};
 use crate::prove::{Proved, is_of_one_plan, is_unsuitable};
-use crate::show::{Precision, sentence};
 
+pub use crate::jury::{Jury, Offender, Run};
 pub use crate::points::Point;
 pub use crate::points::comparison::{Effort, Points};
 
 /// Points that are evaluated together.
 const BATCH: usize = 100_000;
-/// Offenders that are kept for the report.
-const KEPT: usize = 5;
 
 /// The plans to compare, and the points.
 #[derive(Debug, Clone)]
@@ -67,48 +51,6 @@ pub struct Report {
     pub runs: Vec<Run>,
     /// The plans that were refused as not equal to the table, which would be a bug of the planner.
     pub refused: Vec<Failure>,
-}
-
-/// One executor against the interpreter.
-#[derive(Debug, Clone)]
-pub struct Run {
-    /// The plan.
-    pub shape: Shape,
-    /// The entry point.
-    pub entry: Entry,
-    /// The language.
-    pub language: Language,
-    /// Points with the same case and the same bits.
-    pub bit_equal: usize,
-    /// Points that differ, but as WGSL admits for the operations as they are written.
-    pub admissible: usize,
-    /// Points that differ as WGSL admits only if sums and products are computed in another order.
-    pub reordered: usize,
-    /// Points that differ otherwise.
-    pub offending: usize,
-    /// Points at which an assumption does not hold that the plan makes use of.
-    pub excluded: usize,
-    /// Largest difference of a value where the same case was taken.
-    pub worst: f64,
-    /// The first offenders.
-    pub offenders: Vec<Offender>,
-}
-
-/// A point at which an executor is wrong.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Offender {
-    /// The inputs, as `umbrage explain --at` takes them.
-    pub inputs: String,
-    /// The result, and the one that was expected.
-    pub reason: String,
-}
-
-impl Run {
-    fn new(shape: Shape, entry: Entry, language: Language) -> Self {
-        let (bit_equal, admissible, reordered, offending, excluded) = (0, 0, 0, 0, 0);
-        let offenders = Vec::new();
-        Self { shape, entry, language, bit_equal, admissible, reordered, offending, excluded, worst: 0.0, offenders }
-    }
 }
 
 impl Report {
@@ -223,36 +165,6 @@ pub fn plans(
     Ok(comparison.report)
 }
 
-/// Judges the answers of one executor as they come.
-pub struct Jury<'p> {
-    interpreter: Batch<'p, f32>,
-    judge: Judge<'p>,
-    leeway: Leeway,
-    /// The findings so far.
-    pub run: Run,
-}
-
-impl<'p> Jury<'p> {
-    /// A jury for the WGSL of a plan.
-    pub fn new(proved: &Proved<'p>) -> Self {
-        let program = proved.plan().program;
-        Self {
-            interpreter: Batch::new(program),
-            judge: Judge::new(program),
-            leeway: Leeway::of(proved),
-            run: Run::new(proved.plan().shape, Entry::Key, Language::Wgsl),
-        }
-    }
-
-    /// Judges the answers at some points. Points at which an input is missing that is needed have none.
-    pub fn hear(&mut self, columns: &Columns<f32>, outputs: &Outputs) {
-        let Ok(expected) = self.interpreter.evaluate(columns) else { return };
-        for point in 0..columns.len() {
-            self.judge.compare(columns, point, &expected, outputs, self.leeway, &mut self.run);
-        }
-    }
-}
-
 /// A comparison under way.
 struct Comparison<'a, 'p> {
     kernels: Vec<(Kernel<'a, 'p>, Leeway)>,
@@ -333,147 +245,4 @@ fn internal(program: &Program, message: &str) -> Failure {
     let error =
         Diagnostic::error(codes::BAD_VALUE, format!("the points of `{}` do not fit it: {message}", program.name));
     Failure::new(program.source.clone(), error.help("please report this: points are made from the table itself"))
-}
-
-/// The differences from the table that a plan may have.
-#[derive(Debug, Clone, Copy)]
-struct Leeway {
-    /// The case it reports need not be the one that the table takes.
-    other_case: bool,
-    /// It may do anything where an assumption does not hold.
-    assumed: bool,
-    /// The error that a value, and an input, may have; zero for a plan that computes as the table does.
-    slack: f64,
-}
-
-impl Leeway {
-    fn of(proved: &Proved<'_>) -> Self {
-        let (plan, proof) = (proved.plan(), proved.proof());
-        let largest = plan.program.inputs.iter().map(|input| match input.domain {
-            Domain::Continuous { lo, hi, .. } => lo.abs().max(hi.abs()),
-            Domain::Discrete(_) | Domain::Word => 0.0,
-        });
-        // Where the proof knows no bound, a few roundings of the inputs. The
-        // proof's is for rounding to nearest, and WGSL lets an error be twice that.
-        let least = largest.fold(1.0, f64::max) * 4.0 * f64::from(f32::EPSILON);
-        let slack = match proof.identical == proof.paths {
-            true => 0.0,
-            false => least.max(2.0 * proof.rounding.unwrap_or(0.0)),
-        };
-        Self { other_case: !plan.reports_case(), assumed: plan.assumed, slack }
-    }
-}
-
-struct Judge<'p> {
-    program: &'p Program,
-    intervals: IntervalInterpreter<'p>,
-    interpreter: Interpreter<'p, f32>,
-}
-
-impl<'p> Judge<'p> {
-    fn new(program: &'p Program) -> Self {
-        Self { program, intervals: IntervalInterpreter::new(program), interpreter: Interpreter::new(program) }
-    }
-
-    fn compare(
-        &mut self,
-        columns: &Columns<f32>,
-        point: usize,
-        expected: &Results<f32>,
-        outputs: &Outputs,
-        leeway: Leeway,
-        run: &mut Run,
-    ) {
-        if leeway.assumed && !self.assumptions_hold(&columns.point(point)) {
-            run.excluded += 1;
-            return;
-        }
-        let want = expected.path(point);
-        // A device tells a case by its number, which its images share.
-        let number = |row: Option<usize>| row.map(|row| self.program.rows[row].id);
-        let told = outputs.rows[point];
-        let is_same = leeway.other_case || number(told) == number(want.row);
-        let got_row = if is_same { want.row } else { told };
-        let same_case = want.row == got_row;
-        let (mut same_bits, mut worst) = (same_case, 0.0_f64);
-        for ((component, values), of) in outputs.values.iter().enumerate().zip(self.program.output.components()) {
-            let (a, b) = (expected.values(component)[point], values[point]);
-            same_bits &= a.to_bits() == b.to_bits();
-            if same_case && a.to_bits() != b.to_bits() {
-                let difference = (of.scalar.read(a) - of.scalar.read(b)).abs();
-                // A NaN on one side only is as far off as can be; two are no difference.
-                // Of words, neither is the case: what carries them may be anything.
-                let is_same = of.scalar != Scalar::Word && (a.is_nan() && b.is_nan() || a == b);
-                let difference = if is_same { 0.0 } else { difference };
-                worst = worst.max(if difference.is_nan() { f64::INFINITY } else { difference });
-            }
-        }
-        run.worst = run.worst.max(worst);
-        let fetched = outputs.fetched[point];
-        let again = outputs.repeated[point].iter().next();
-        let needless = fetched.minus(want.fetched).iter().next();
-        let mut reason = String::new();
-        if let Some(input) = again {
-            let _ = write!(reason, "`{}` is fetched more than once", self.program.inputs[input.index()].name);
-        } else if same_bits && needless.is_none() {
-            run.bit_equal += 1;
-            return;
-        } else if same_case && needless.is_none() && worst <= leeway.slack {
-            run.admissible += 1;
-            return;
-        } else {
-            let values: Vec<f32> = outputs.values.iter().map(|component| component[point]).collect();
-            let mut legal = |reordering: bool| {
-                self.intervals.reordering(reordering);
-                let near = self.intervals.admissible_near(&columns.point(point), leeway.slack);
-                // An absent input may be needed by what was legally done otherwise.
-                near.is_ok_and(|near| match needless {
-                    Some(_) if same_case => near.contains_fetching(got_row, &values, fetched),
-                    _ if leeway.other_case => near.contains_values(&values),
-                    _ => self.program.rows_like(got_row).any(|row| near.contains(row, &values)),
-                })
-            };
-            if legal(false) {
-                run.admissible += 1;
-                return;
-            }
-            if legal(true) {
-                run.reordered += 1;
-                return;
-            }
-            let _ = match needless {
-                Some(input) if same_case => {
-                    write!(reason, "`{}` is fetched without need", self.program.inputs[input.index()].name)
-                }
-                _ => write!(
-                    reason,
-                    "expected {}, got {}",
-                    self.describe(want.row, &expected.outcome(point).values),
-                    self.describe(got_row, &values)
-                ),
-            };
-        }
-        run.offending += 1;
-        if run.offenders.len() < KEPT {
-            run.offenders.push(Offender { inputs: self.inputs(columns, point), reason });
-        }
-    }
-
-    fn assumptions_hold(&mut self, point: &Point) -> bool {
-        let mut assumptions = self.program.assumptions.iter();
-        self.interpreter.place(point).is_ok()
-            && assumptions.all(|assumption| self.interpreter.holds(assumption.condition).unwrap_or(true))
-    }
-
-    fn describe(&self, row: Option<usize>, values: &[f32]) -> String {
-        let values = self.program.output.numbers(values);
-        let case = row.map_or_else(|| "the default".to_owned(), |row| format!("case {}", self.program.rows[row].id));
-        format!("{case} with {}", sentence(&self.program.output, &values, Precision::F32))
-    }
-
-    fn inputs(&self, columns: &Columns<f32>, point: usize) -> String {
-        let values = self.program.inputs.iter().zip(columns.point(point));
-        let shown = values.filter_map(|(input, value)| Some(format!("{}={}", input.name, input.show(value?))));
-        shown.collect::<Vec<_>>().join(",")
-    }
 }

@@ -120,6 +120,10 @@ fn invalid(program: &Program, language: &str, message: &str) -> Failure {
 
 /// Runs `work` on a thread with a large stack, or here if none can be had.
 fn with_stack<T: Send>(work: impl FnOnce() -> Result<T, Failure> + Send) -> Result<T, Failure> {
+    if cfg!(target_family = "wasm") {
+        // No threads there; the stack of the one that there is was chosen when the module was linked.
+        return work();
+    }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work);
         let joined = thread.map_err(|error| error.to_string()).and_then(|handle| {

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use super::Gpu;
-use super::kernel::{Names, fetched_words, plain_words};
+use super::kernel::Names;
 use super::pass::{Compute, Module};
 use super::timing::Stopwatch;
 use crate::diag::{Diagnostic, Failure, codes};
@@ -11,6 +11,7 @@ use crate::emit::kernel::columns::{Entry, Layout, WORKGROUP};
 use crate::emit::kernel::timed::{wgsl_floor, wgsl_timed};
 use crate::emit::{lookup_words, wgsl_module};
 use crate::eval::Columns;
+use crate::jury::words::{fetched_words, plain_words};
 use crate::plan::KeyLayout;
 use crate::program::Program;
 use crate::prove::Proved;

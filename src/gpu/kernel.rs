@@ -1,50 +1,19 @@
 //! A table as a compute pipeline.
 
-use std::ops::Range;
-
 use super::Gpu;
 use super::pass::{Bound, Compute, Module, Resources};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::emit::kernel::columns::{COUNTS_PER_WORD, Entry, Layout, buffer_name, glsl_columns, wgsl_columns};
+use crate::emit::kernel::columns::{Entry, Layout, buffer_name, glsl_columns, wgsl_columns};
 use crate::emit::{glsl_module, lookup_words, wgsl_module};
-use crate::eval::{ABSENT, Columns};
+use crate::eval::Columns;
+use crate::jury::words::{fetched_words, plain_words, read};
+use crate::jury::{Language, Outputs};
 use crate::plan::KeyLayout;
-use crate::program::{Domain, InputId, InputSet, LevelKind, Levels, Program};
+use crate::program::Program;
 use crate::prove::Proved;
 
 /// Most rows of one dispatch.
 const MAX_ROWS: usize = 1 << 18;
-
-/// The language in which a kernel is handed over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Language {
-    /// The emitted WGSL.
-    Wgsl,
-    /// The emitted GLSL 450, read by naga.
-    Glsl,
-}
-
-impl Language {
-    /// Both.
-    pub const ALL: [Language; 2] = [Language::Wgsl, Language::Glsl];
-
-    /// Returns whether programs in it can be run: naga's reader of GLSL gives an array in a structure another stride than
-    /// one by itself, so that it refuses every result that is a list.
-    pub fn runs(self, program: &Program) -> bool {
-        match self {
-            Language::Wgsl => true,
-            Language::Glsl => !program.output.data_type().has_array(),
-        }
-    }
-
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Language::Wgsl => "wgsl",
-            Language::Glsl => "glsl",
-        }
-    }
-}
 
 /// A plan on a device.
 #[derive(Debug)]
@@ -58,19 +27,6 @@ pub struct Kernel<'a, 'p> {
     compute: Compute,
     names: Names,
     lookup: Option<wgpu::Buffer>,
-}
-
-/// The results of a kernel, row by row.
-#[derive(Debug, Clone, Default)]
-pub struct Outputs {
-    /// The row of the program that was taken; `None` for the default.
-    pub rows: Vec<Option<usize>>,
-    /// For each component of the output, its values. Whole numbers are exact.
-    pub values: Vec<Vec<f32>>,
-    /// The inputs that were fetched.
-    pub fetched: Vec<InputSet>,
-    /// The inputs that were fetched more than once.
-    pub repeated: Vec<InputSet>,
 }
 
 impl<'a, 'p> Kernel<'a, 'p> {
@@ -153,93 +109,10 @@ impl<'a, 'p> Kernel<'a, 'p> {
         let bound = self.names.bind(gpu, &self.module, &plain, fetched.as_ref(), &out, self.lookup.as_ref())?;
         let work = self.compute.covering([count as u32, 1, 1]);
         gpu.submit(|encoder| self.compute.encode(encoder, &bound, work, 1, None));
-        gpu.read_buffer(&out, size, |bytes| self.read(bytemuck::cast_slice(bytes), outputs))
+        gpu.read_buffer(&out, size, |bytes| {
+            read(self.program, &self.layout, bytemuck::cast_slice(bytes), outputs);
+        })
     }
-
-    fn read(&self, words: &[u32], outputs: &mut Outputs) {
-        let rows: std::collections::HashMap<u32, usize> =
-            self.program.rows.iter().enumerate().map(|(index, row)| (row.id, index)).collect();
-        let fetched: Vec<InputId> = self.program.fetched.iter().collect();
-        let components = self.program.output.components();
-        for result in words.chunks_exact(self.layout.out) {
-            outputs.rows.push(rows.get(&result[0]).copied());
-            for ((column, component), word) in outputs.values.iter_mut().zip(&components).zip(&result[1..]) {
-                column.push(component.scalar.number(*word));
-            }
-            let (mut once, mut repeated) = (InputSet::default(), InputSet::default());
-            for (index, input) in fetched.iter().enumerate() {
-                let word = result[1 + self.layout.values + index / COUNTS_PER_WORD];
-                match word >> (4 * (index % COUNTS_PER_WORD)) & 15 {
-                    0 => {}
-                    1 => once = once.or(InputSet::one(*input)),
-                    _ => repeated = repeated.or(InputSet::one(*input)),
-                }
-            }
-            outputs.fetched.push(once.or(repeated));
-            outputs.repeated.push(repeated);
-        }
-    }
-}
-
-/// The number of rows, then the inputs that are not fetched, as [`Layout`] says.
-pub(super) fn plain_words(
-    program: &Program,
-    key: &KeyLayout,
-    entry: Entry,
-    columns: &Columns<f32>,
-    rows: Range<usize>,
-) -> Vec<u32> {
-    let plain = program.input_ids().filter(|(_, input)| input.fetched.is_none());
-    let inputs: Vec<(InputId, &Domain)> = plain.map(|(id, input)| (id, &input.domain)).collect();
-    let mut words = Vec::with_capacity(1 + rows.len() * (1 + inputs.len()));
-    words.push(rows.len() as u32);
-    for row in rows {
-        if entry == Entry::Key {
-            words.push(key.pack(|input| columns.levels(input)[row]));
-        }
-        for (input, domain) in &inputs {
-            match domain {
-                // A word by its bits, as a number.
-                Domain::Continuous { .. } | Domain::Word => words.push(columns.numbers(*input)[row].to_bits()),
-                Domain::Discrete(_) if entry == Entry::Key => {}
-                Domain::Discrete(levels) => {
-                    let level = columns.levels(*input)[row];
-                    words.push(match levels.kind {
-                        LevelKind::Bool => u32::from(level),
-                        LevelKind::Int if levels.classes.is_some() => integer_word(levels, level),
-                        _ => (levels.codes[usize::from(level)] as f32).to_bits(),
-                    });
-                }
-            }
-        }
-    }
-    words
-}
-
-/// An integer that a level stands for.
-fn integer_word(levels: &Levels, level: u8) -> u32 {
-    (levels.codes[usize::from(level)] as i32).cast_unsigned()
-}
-
-/// The fetched inputs, as [`Layout`] says.
-pub(super) fn fetched_words(program: &Program, columns: &Columns<f32>, rows: Range<usize>) -> Vec<u32> {
-    let inputs: Vec<(InputId, Option<&Levels>)> =
-        program.fetched.iter().map(|input| (input, program.levels(input))).collect();
-    let mut words = Vec::with_capacity(rows.len() * inputs.len());
-    for row in rows {
-        words.extend(inputs.iter().map(|(input, levels)| {
-            if let Some(levels) = levels {
-                let level = columns.levels(*input)[row];
-                let is_integer = levels.classes.is_some() && level != ABSENT;
-                if is_integer { integer_word(levels, level) } else { u32::from(level) }
-            } else if columns.is_present(row, *input) {
-                columns.numbers(*input)[row].to_bits()
-            } else {
-                f32::NAN.to_bits()
-            }
-        }));
-    }
-    words
 }
 
 /// The names of the buffers in a shader over columns.

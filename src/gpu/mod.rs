@@ -16,8 +16,9 @@ pub(crate) mod pass;
 mod tests;
 pub mod timing;
 
+pub use crate::jury::{Language, Outputs};
 pub use device::{AdapterChoice, Gpu};
-pub use kernel::{Kernel, Language, Outputs};
+pub use kernel::Kernel;
 
 #[cfg(feature = "render")]
 pub(crate) use data::{laid_out, view};

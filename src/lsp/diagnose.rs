@@ -17,9 +17,9 @@ use super::place;
 use super::settings::Settings;
 use super::transport::Outlet;
 use crate::analyse;
-use crate::diag::{Diagnostic, Failure, Severity, Source, Span, codes};
+use crate::diag::{Diagnostic, Severity, Source, Span, codes};
 use crate::program::Program;
-use crate::table::Table;
+use crate::table::{Table, seen_from};
 use crate::text::tokens;
 
 /// Stack of the thread: as much as expressions of the deepest nesting need, several times over.
@@ -101,24 +101,8 @@ pub(super) fn diagnose(source: &Arc<Source>, settings: &Settings) -> Vec<Diagnos
     let checked = Table::parse(source.clone()).and_then(|table| Program::check_all(&table));
     match checked {
         Ok(programs) => analyse::report_all(&programs, &settings.levels).open,
-        Err(failure) if failure.source.name == source.name => failure.diagnostics,
-        Err(failure) => vec![elsewhere(source, &failure)],
+        Err(failure) => seen_from(source, failure),
     }
-}
-
-/// The first mistake in an imported table, said where it is imported.
-fn elsewhere(source: &Source, failure: &Failure) -> Diagnostic {
-    let place = tokens::tokens(&source.text).into_iter().find_map(|token| {
-        let (_, inner, _) = tokens::quoted(token.text);
-        let named = token.kind == tokens::Kind::Text && !inner.is_empty() && failure.source.name.ends_with(inner);
-        let start = (token.text.as_ptr() as usize).saturating_sub(source.text.as_ptr() as usize);
-        named.then(|| Span::new(start, start + token.text.len()))
-    });
-    let first = failure.diagnostics.first();
-    let (code, message) = first.map_or((codes::IMPORT, ""), |first| (first.code, first.message.as_str()));
-    let line = first.and_then(|first| first.labels.first()).map_or(1, |label| failure.source.line(label.span.start));
-    Diagnostic::error(code, format!("{}:{line}: {message}", failure.source.name))
-        .at(place.unwrap_or_default(), "imported here")
 }
 
 /// A diagnostic as an editor shows it.

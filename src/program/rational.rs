@@ -5,6 +5,8 @@
 //! would panic or wrap around does not compile. Whoever gets `None` gives up and
 //! says so, or takes the answer that claims nothing.
 
+use std::cmp::Ordering;
+use std::hash::{Hash, Hasher};
 use std::ops::Neg;
 
 use num_rational::Ratio;
@@ -18,9 +20,51 @@ pub(crate) fn gcd(mut a: u128, mut b: u128) -> u128 {
     a
 }
 
+/// The same of numbers of 64 bits, which processors divide themselves.
+fn small_gcd(mut a: u64, mut b: u64) -> u64 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
 /// A fraction in lowest terms; its numerator is never the smallest `i128`, so that it has a negative.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+///
+/// Nearly all that occur are small. Where numerators and denominators fit into 64 bits, sums, products and
+/// comparisons are made there, and equality and hashes look at the two numbers, as each fraction has one form:
+/// the ways of [`Ratio`] divide numbers of 128 bits again and again.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Rational(Ratio<i128>);
+
+impl PartialEq for Rational {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.numer() == other.0.numer() && self.0.denom() == other.0.denom()
+    }
+}
+
+impl Eq for Rational {}
+
+impl Hash for Rational {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.numer().hash(state);
+        self.0.denom().hash(state);
+    }
+}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Rational {
+    fn cmp(&self, other: &Self) -> Ordering {
+        match (self.small(), other.small()) {
+            (Some((a, b)), Some((c, d))) => (i128::from(a) * i128::from(d)).cmp(&(i128::from(c) * i128::from(b))),
+            _ => self.0.cmp(&other.0),
+        }
+    }
+}
 
 impl Rational {
     pub(crate) const ZERO: Self = Self(Ratio::new_raw(0, 1));
@@ -76,15 +120,38 @@ impl Rational {
     }
 
     pub(crate) fn plus(self, other: Self) -> Option<Self> {
-        self.0.checked_add(&other.0).and_then(Self::kept)
+        let small = self.small().zip(other.small());
+        small.and_then(|(a, b)| Self::sum(a, b)).or_else(|| self.0.checked_add(&other.0).and_then(Self::kept))
     }
 
     pub(crate) fn minus(self, other: Self) -> Option<Self> {
-        self.0.checked_sub(&other.0).and_then(Self::kept)
+        let small = self.small().zip((-other).small());
+        small.and_then(|(a, b)| Self::sum(a, b)).or_else(|| self.0.checked_sub(&other.0).and_then(Self::kept))
     }
 
     pub(crate) fn times(self, other: Self) -> Option<Self> {
-        self.0.checked_mul(&other.0).and_then(Self::kept)
+        let (Some((a, b)), Some((c, d))) = (self.small(), other.small()) else {
+            return self.0.checked_mul(&other.0).and_then(Self::kept);
+        };
+        // What has no common divisor crosswise has none afterwards. A divisor of a positive number is no larger.
+        let (across, back) =
+            (small_gcd(a.unsigned_abs(), d as u64) as i64, small_gcd(c.unsigned_abs(), b as u64) as i64);
+        let product = |one: i64, other: i64| i128::from(one) * i128::from(other);
+        Some(Self(Ratio::new_raw(product(a / across, c / back), product(b / back, d / across))))
+    }
+
+    /// Numerator and denominator, if they fit into 64 bits.
+    fn small(self) -> Option<(i64, i64)> {
+        Some((i64::try_from(*self.0.numer()).ok()?, i64::try_from(*self.0.denom()).ok()?))
+    }
+
+    /// The sum of small fractions, if its parts are small before they are reduced.
+    fn sum((a, b): (i64, i64), (c, d): (i64, i64)) -> Option<Self> {
+        let numerator = a.checked_mul(d)?.checked_add(c.checked_mul(b)?)?;
+        let denominator = b.checked_mul(d)?;
+        let common = small_gcd(numerator.unsigned_abs(), denominator as u64) as i64;
+        let (numerator, denominator) = (numerator / common, denominator / common);
+        Some(Self(Ratio::new_raw(i128::from(numerator), i128::from(denominator))))
     }
 
     /// One divided by the number; `None` for zero.
@@ -194,6 +261,11 @@ mod tests {
             if let Some(back) = a.times(b).and_then(|product| product.over(b)) {
                 prop_assert_eq!(back, a);
             }
+            // The short ways lead where the long ones do.
+            prop_assert_eq!(a.plus(b), a.0.checked_add(&b.0).and_then(Rational::kept));
+            prop_assert_eq!(a.minus(b), a.0.checked_sub(&b.0).and_then(Rational::kept));
+            prop_assert_eq!(a.times(b), a.0.checked_mul(&b.0).and_then(Rational::kept));
+            prop_assert_eq!((a.cmp(&b), a == b), (a.0.cmp(&b.0), a.0 == b.0));
             prop_assert_eq!(-(-a), a);
             prop_assert_eq!(a.plus(-a), Some(Rational::ZERO));
             prop_assert_eq!(a.cmp(&b), (-b).cmp(&-a));

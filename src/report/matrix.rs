@@ -13,7 +13,7 @@ const MAX_STATES: usize = 4096;
 const SIDE: usize = 17;
 
 /// The matrix, or why there is none.
-pub(super) fn matrix(program: &Program) -> Markup {
+pub fn matrix(program: &Program) -> Markup {
     let states = program.states.count();
     if states > MAX_STATES {
         return html! {
@@ -50,7 +50,9 @@ pub(super) fn matrix(program: &Program) -> Markup {
                     text transform=(format!("translate({x} {y}) rotate(-90)")) { (label) }
                 }
                 @for (state, claim) in claims.iter().enumerate() {
-                    (square(program, *claim, left + state % columns * SIDE, top + state / columns * SIDE))
+                    g data-state=(state) {
+                        (square(program, *claim, left + state % columns * SIDE, top + state / columns * SIDE))
+                    }
                 }
             }
         }

@@ -8,6 +8,8 @@ mod matrix;
 
 use maud::{Markup, PreEscaped, html};
 
+pub use matrix::matrix;
+
 use crate::analyse::{self, LintLevels};
 use crate::atlas::text::{self, LineText};
 use crate::atlas::{self, Atlas};
@@ -56,7 +58,7 @@ pub fn page(program: &Program, known: Known<'_>) -> Result<String, Failure> {
         h2 id="findings" { "Findings" }
         (findings(program))
         h2 id="coverage" { "Coverage" }
-        (matrix::matrix(program))
+        (matrix(program))
         h2 id="atlas" { "Atlas" }
         (atlas::html(program, &atlas))
         @if let Some(profile) = known.profile {

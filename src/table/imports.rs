@@ -1,4 +1,4 @@
-//! Reads the tables that a table imports, and those that they import.
+//! Reads the tables that a table imports, and those that they import; and says of a mistake in one where it is imported.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use super::library::Library;
 use super::{ConstantValue, Table, data, names, read};
-use crate::diag::{Diagnostic, Failure, Source, codes};
+use crate::diag::{Diagnostic, Failure, Source, Span, codes};
 use crate::text::file::shown;
 use crate::text::reach::{OutOfReach, beside, plain};
+use crate::text::tokens;
 
 /// Most tables in a chain of imports.
 const MAX_CHAIN: usize = 8;
@@ -83,4 +84,23 @@ fn follow(mut table: Table, chain: &[PathBuf], known: &mut Known, library: Libra
     }
     table.imports = imports;
     Ok((table, longest))
+}
+
+/// The diagnostics of a failure as one sees them who looks at a single text: the first mistake in an imported
+/// table is said where that is imported.
+pub fn seen_from(source: &Source, failure: Failure) -> Vec<Diagnostic> {
+    if failure.source.name == source.name {
+        return failure.diagnostics;
+    }
+    let place = tokens::tokens(&source.text).into_iter().find_map(|token| {
+        let (_, inner, _) = tokens::quoted(token.text);
+        let named = token.kind == tokens::Kind::Text && !inner.is_empty() && failure.source.name.ends_with(inner);
+        let start = (token.text.as_ptr() as usize).saturating_sub(source.text.as_ptr() as usize);
+        named.then(|| Span::new(start, start + token.text.len()))
+    });
+    let first = failure.diagnostics.first();
+    let (code, message) = first.map_or((codes::IMPORT, ""), |first| (first.code, first.message.as_str()));
+    let line = first.and_then(|first| first.labels.first()).map_or(1, |label| failure.source.line(label.span.start));
+    let error = Diagnostic::error(code, format!("{}:{line}: {message}", failure.source.name));
+    vec![error.at(place.unwrap_or_default(), "imported here")]
 }

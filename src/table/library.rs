@@ -6,12 +6,8 @@
 use std::path::Path;
 
 use super::MAX_BYTES;
-use crate::diag::Failure;
-#[cfg(feature = "render")]
-use crate::diag::{Diagnostic, codes};
-use crate::text::file::read_text;
-#[cfg(feature = "render")]
-use crate::text::file::shown;
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::text::file::{read_text, shown};
 
 /// The place where what a table names is looked for.
 #[derive(Debug, Clone, Copy)]
@@ -19,7 +15,6 @@ pub(super) enum Library {
     /// Among files.
     Disk,
     /// Among these texts, each with its path.
-    #[cfg(feature = "render")]
     Texts(&'static [(&'static str, &'static str)]),
 }
 
@@ -28,7 +23,6 @@ impl Library {
     pub(super) fn read(self, path: &Path) -> Result<String, Failure> {
         match self {
             Library::Disk => read_text(path, MAX_BYTES),
-            #[cfg(feature = "render")]
             Library::Texts(texts) => {
                 let found = texts.iter().find(|(known, _)| Path::new(known) == path);
                 let missing =

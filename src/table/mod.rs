@@ -32,6 +32,7 @@ use library::Library;
 pub use claims::Claim;
 pub use data::DataFile;
 pub use functions::{Accuracy, Constant, ConstantValue, Function, FunctionBody, Helper, Import, Limit};
+pub use imports::seen_from;
 pub(crate) use output::MAX_FIELDS;
 pub use output::{Output, Same};
 pub use parse::MAX_DEPTH;
@@ -394,11 +395,7 @@ impl Table {
     ///
     /// # Errors
     /// When the text is not a well-formed table, or names something else.
-    #[cfg(feature = "render")]
-    pub(crate) fn parse_among(
-        source: Arc<Source>,
-        texts: &'static [(&'static str, &'static str)],
-    ) -> Result<Self, Failure> {
+    pub fn parse_among(source: Arc<Source>, texts: &'static [(&'static str, &'static str)]) -> Result<Self, Failure> {
         Self::found(source, Library::Texts(texts))
     }
 

@@ -120,7 +120,7 @@ pub(in crate::emit) fn wgsl_fetch(fetch: &Fetch, prefix: &Prefix) -> String {
 }
 
 /// The same in GLSL.
-fn glsl_fetch(fetch: &Fetch, prefix: &Prefix, glsl: &Glsl) -> String {
+pub(super) fn glsl_fetch(fetch: &Fetch, prefix: &Prefix, glsl: &Glsl) -> String {
     let arguments = fetch.parameters(|name| format!("float {name}"));
     let (ident, ty) = (&fetch.ident, glsl.scalar(fetch.scalar));
     format!("{ty} {}_fetch_{ident}({} site{arguments})", prefix.lower, prefix.site())
@@ -262,7 +262,7 @@ pub fn buffer_name(program: &Program, buffer: &str) -> String {
     name_buffers(program, &Prefix::new(&program.name), &format!("${buffer}"))
 }
 
-fn count_fetch(layout: &Layout, index: usize) -> String {
+pub(super) fn count_fetch(layout: &Layout, index: usize) -> String {
     let word = 1 + layout.values + index / COUNTS_PER_WORD;
     let place = format!("$out[site.row * {}u + {word}u]", layout.out);
     format!("{place} = {place} + {}u;", 1_u32 << (4 * (index % COUNTS_PER_WORD)))
@@ -273,7 +273,7 @@ pub(in crate::emit) fn fetched_word(layout: &Layout, index: usize) -> String {
     format!("$fetched[site.row * {}u + {index}u]", layout.fetched)
 }
 
-fn arguments(program: &Program, entry: Entry, dialect: &dyn Dialect) -> Vec<String> {
+pub(super) fn arguments(program: &Program, entry: Entry, dialect: &dyn Dialect) -> Vec<String> {
     let word = |index: usize| format!("$plain[at + {index}u]");
     match entry {
         Entry::Key => {
@@ -289,7 +289,7 @@ fn arguments(program: &Program, entry: Entry, dialect: &dyn Dialect) -> Vec<Stri
     }
 }
 
-fn store(out: &mut String, program: &Program, layout: &Layout, dialect: &dyn Dialect) {
+pub(super) fn store(out: &mut String, program: &Program, layout: &Layout, dialect: &dyn Dialect) {
     let value = words(dialect, &program.output.data_type(), "result.value");
     for (index, word) in ["result.case_id".to_owned()].into_iter().chain(value).enumerate() {
         let _ = writeln!(out, "    $out[row * {}u + {index}u] = {word};", layout.out);

@@ -1,4 +1,5 @@
-//! Compute shaders around a library: over columns of inputs, and lean ones to time.
+//! Shaders around a library: over columns of inputs, by compute shaders and by fragments, and lean ones to time.
 
 pub mod columns;
+pub mod fragments;
 pub mod timed;
