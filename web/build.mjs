@@ -3,7 +3,7 @@
 // The compiler must have been built before (`cargo xtask web` does both): its WebAssembly is named by the first
 // argument. It goes into the page compressed; scripts go in as they are, and the page's own policy admits these and no others.
 import { createHash } from "node:crypto";
-import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -40,6 +40,9 @@ const embedded = {
   },
 };
 
+/** The packages that a script was made of. */
+const packages = new Set();
+
 async function script(entry) {
   const result = await build({
     entryPoints: [join(here, "src", entry)],
@@ -51,10 +54,29 @@ async function script(entry) {
     legalComments: "none",
     loader: { ".tmLanguage.json": "json" },
     plugins: [embedded],
+    metafile: true,
     write: false,
     logLevel: "warning",
   });
+  for (const input of Object.keys(result.metafile.inputs)) {
+    const name = /node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(input)?.[1];
+    if (name) packages.add(name);
+  }
   return result.outputFiles[0].text;
+}
+
+/** The licences of these packages, which allow it if they are told. */
+function licences() {
+  const list = readFileSync(join(root, "deny.toml"), "utf8").split("\nallow = [")[1].split("]")[0];
+  const allowed = [...list.matchAll(/"([^"]+)"/g)].map(([, licence]) => licence);
+  return [...packages].sort().map((name) => {
+    const folder = join(here, "node_modules", name);
+    const { version, license } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+    if (!allowed.includes(license)) throw new Error(`${name}: \`${license}\` is not among the licences that deny.toml allows`);
+    const file = ["LICENSE", "LICENSE.md", "LICENSE.txt"].map((file) => join(folder, file)).find(existsSync);
+    if (!file) throw new Error(`${name} does not bring the text of its licence`);
+    return `${name} ${version}\n\n${readFileSync(file, "utf8").trim()}`;
+  });
 }
 
 const [main, worker] = [await script("main.ts"), await script("worker.ts")];
@@ -71,7 +93,9 @@ const policy = [
   "form-action 'none'",
 ].join("; ");
 
-const parts = { policy, style, main, worker, compiler: compiler.toString("base64") };
+// A comment of HTML ends at two hyphens and a bracket.
+const notices = licences().join("\n\n\n").replaceAll("--", "- -");
+const parts = { policy, style, main, worker, notices, compiler: compiler.toString("base64") };
 const page = readFileSync(join(here, "src/index.html"), "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
 mkdirSync(join(here, "dist"), { recursive: true });
 writeFileSync(join(here, "dist/index.html"), page);

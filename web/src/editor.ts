@@ -21,19 +21,22 @@ import type { Diagnostic, Span } from "./api";
 import { h } from "./dom";
 import { table } from "./grammar";
 
-/** A message at the end of its line. */
+/** A message under its line, where no line is too long for it. */
 class Beside extends WidgetType {
   constructor(
     readonly severity: string,
     readonly message: string,
+    readonly column: number,
   ) {
     super();
   }
   override eq(other: Beside): boolean {
-    return other.severity === this.severity && other.message === this.message;
+    return other.severity === this.severity && other.message === this.message && other.column === this.column;
   }
   toDOM(): HTMLElement {
-    return h(`span.beside.${this.severity}`, { "aria-hidden": "true" }, this.message);
+    // Under the place itself, or as far that way as leaves room for the message.
+    const style = `margin-left: min(${this.column}ch, 25%)`;
+    return h("div.under-line", { "aria-hidden": "true" }, h(`span.beside.${this.severity}`, { style }, this.message));
   }
 }
 
@@ -176,7 +179,9 @@ export class Editor {
       .sort(([a], [b]) => a - b)
       .map(([line, one]) => {
         const more = one.labels[0]?.message ? `: ${one.labels[0].message}` : "";
-        return Decoration.widget({ widget: new Beside(one.severity, one.message + more), side: 1 }).range(doc.line(line).to);
+        const { from, to } = doc.line(line);
+        const widget = new Beside(one.severity, one.message + more, within(one.labels[0]?.at[0] ?? 0) - from);
+        return Decoration.widget({ widget, side: 1, block: true }).range(to);
       });
     this.view.dispatch(setDiagnostics(this.view.state, lints), { effects: setBeside.of(RangeSet.of(marks)) });
   }

@@ -59,6 +59,8 @@ export class RunView implements View {
   private shown = "";
   private axes?: Axes;
   private apis?: Api[];
+  /** Counts runs; what an earlier one still brings is not shown. */
+  private turn = 0;
 
   constructor(private readonly app: App) {}
 
@@ -136,6 +138,8 @@ export class RunView implements View {
 
   private async run(): Promise<void> {
     const { compiler } = this.app;
+    const turn = ++this.turn;
+    const isOver = () => turn !== this.turn;
     if (!this.apis) {
       this.apis = await available();
       this.api.replaceChildren(...this.apis.map((api) => h("option", { value: api }, api)));
@@ -149,10 +153,10 @@ export class RunView implements View {
       down: this.down.value,
       side,
     };
-    const edition = this.app.edition;
     this.element.classList.add("waiting");
     try {
       const { json, bytes: pieces } = await compiler.ask<Run>("run", { ...asked, do: "run" });
+      if (isOver()) return;
       const reason = refused(json);
       if (reason) {
         this.clear(reason);
@@ -168,8 +172,9 @@ export class RunView implements View {
         ...(json.fetched && { fetched: words(pieces, json.fetched) }),
         ...(json.lookup && { lookup: words(pieces, json.lookup) }),
       });
-      if (edition !== this.app.edition) return;
+      if (isOver()) return;
       const judged = await compiler.ask<Verdict>("judge", { ...asked, do: "judge" }, new Uint8Array(ran.words.buffer));
+      if (isOver()) return;
       const refusal = refused(judged.json);
       if (refusal) {
         this.clear(refusal, 1);
@@ -183,9 +188,9 @@ export class RunView implements View {
       this.tell(judged.json, `${ran.api}${ran.device ? `, ${ran.device}` : ""}`, ran.took);
     } catch (error) {
       const reason = failed(error);
-      if (reason) this.clear(reason, 1);
+      if (reason && !isOver()) this.clear(reason, 1);
     } finally {
-      this.element.classList.remove("waiting");
+      if (!isOver()) this.element.classList.remove("waiting");
     }
   }
 

@@ -3,6 +3,7 @@
 
 mod kill;
 mod licences;
+mod web;
 
 use std::env;
 use std::ffi::OsStr;
@@ -29,6 +30,7 @@ Usage: cargo xtask <task> [arguments]
   fuzz [--minutes N] [--seed S] [TARGET...]
                                  try random tables and files made wrong, on all cores; `fuzz --help`
                                  says more
+  web [--test]                   build the playground, web/dist/index.html; --test also tries it in Chromium
   bench [ARGS]                   run the benchmarks; ARGS go to `cargo bench`
 ";
 
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         "errata" => errata(&mut steps),
         "kill" => kill(&mut steps, rest),
         "fuzz" => fuzz(&mut steps, rest),
+        "web" => web::run(&mut steps, root(), rest),
         "bench" => bench(&mut steps, rest),
         "help" | "--help" | "-h" => {
             print!("{USAGE}");
@@ -219,7 +222,7 @@ fn kill(steps: &mut Steps, arguments: &[String]) -> Result {
         }
     };
     let (times, seed) = (number(0, 500)?, number(1, 1)?);
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    let root = root();
     let program = match arguments.get(2) {
         Some(program) => PathBuf::from(program),
         None => {
@@ -399,13 +402,16 @@ impl Steps {
     }
 }
 
+/// The directory of the repository.
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."))
+}
+
 /// The `cargo` that runs this, so that toolchain overrides stay in force.
 fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments);
-    if let Some(root) = Path::new(env!("CARGO_MANIFEST_DIR")).parent() {
-        command.current_dir(root);
-    }
+    command.current_dir(root());
     command
 }
 
