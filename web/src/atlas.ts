@@ -97,7 +97,7 @@ export class AtlasView implements View {
   }
 
   private place(row: Case, index: number): Place {
-    const element = h("figure.panel", { tabindex: 0, "aria-label": `case ${row.id}: ${row.doc}` });
+    const element = h("figure.panel", { tabindex: 0, "aria-label": `${program(this.app)?.function ?? `case ${row.id}`}: ${row.doc}` });
     const place: Place = { row, index, element, edition: -1, share: [0.5, 0.5] };
     element.addEventListener("pointermove", (event) => this.pointed(place, event));
     element.addEventListener("click", (event) => {

@@ -24,11 +24,12 @@ export function briefly(app: App, decision: Decision, point: Point): HTMLElement
     h("p.point", null, where || "everything at its default"),
     decision.needs
       ? h("p", null, "needs ", h("code", null, decision.needs), ", which is fetched and not given here")
-      : h("p", null, h("strong", null, called(decision)), " gives ", h("strong.value", null, decision.value), why ? [", as ", h("code", null, why)] : ""),
+      : h("p", null, h("strong", null, called(app, decision)), " gives ", h("strong.value", null, decision.value), why ? [", as ", h("code", null, why)] : ""),
   );
 }
 
-const called = ({ case: taken }: Decision) => (taken ? `case ${taken.id}` : "the default");
+/** Whoever gives the value: a case, the default, or a function, which has no cases. */
+const called = (app: App, { case: taken }: Decision) => program(app)?.function ?? (taken ? `case ${taken.id}` : "the default");
 
 export class DecisionView implements View {
   readonly id = "decision";
@@ -156,7 +157,7 @@ export class DecisionView implements View {
       null,
       h("p.result", null, h("span.value", null, decision.value)),
       taken
-        ? h("p", null, to(taken.at, `case ${taken.id}`), taken.doc && `: ${taken.doc}`, taken.section && h("span.soft", null, ` (section ${taken.section})`))
+        ? h("p", null, to(taken.at, called(app, decision)), taken.doc && `: ${taken.doc}`, taken.section && h("span.soft", null, ` (section ${taken.section})`))
         : h("p", null, "No case matches: the default counts."),
       decision.also.length > 0 && h("p", null, `Then the items of case ${decision.also.join(", ")}.`),
       decision.guard.length > 0 && [h("h3", null, "Why"), h("ul", null, decision.guard.map((test) => h("li", null, tested(test))))],

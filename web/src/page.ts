@@ -7,6 +7,7 @@ import { CodeView, save } from "./code";
 import { Compiler, Stopped, embedded } from "./compiler";
 import { Coverage } from "./coverage";
 import { DecisionView } from "./decision";
+import { divide } from "./divider";
 import { byId, calm, h, plural, toast } from "./dom";
 import { Editor } from "./editor";
 import { Findings } from "./findings";
@@ -273,24 +274,6 @@ function furnish(): void {
   byId("home").addEventListener("click", (event) => {
     event.preventDefault();
     choose(FIRST);
-  });
-}
-
-function divide(): void {
-  const divider = byId("divider");
-  const main = divider.parentElement as HTMLElement;
-  const set = (share: number) => main.style.setProperty("--share", `${Math.min(80, Math.max(20, share))}%`);
-  let share = 48;
-  divider.addEventListener("pointerdown", (event) => {
-    divider.setPointerCapture(event.pointerId);
-    divider.onpointermove = (move) => set((share = (100 * move.clientX) / main.clientWidth));
-  });
-  divider.addEventListener("pointerup", () => {
-    divider.onpointermove = null;
-  });
-  divider.addEventListener("keydown", (event) => {
-    const by = { ArrowLeft: -2, ArrowRight: 2 }[event.key];
-    if (by) set((share = Math.min(80, Math.max(20, share + by))));
   });
 }
 

@@ -144,7 +144,8 @@ export class RunView implements View {
       this.apis = await available();
       this.api.replaceChildren(...this.apis.map((api) => h("option", { value: api }, api)));
     }
-    const side = Number(this.side.value);
+    // Without an axis every pixel is the same point.
+    const side = this.across.value || this.down.value ? Number(this.side.value) : 1;
     const asked = {
       program: this.app.program,
       plan: this.plan.value,

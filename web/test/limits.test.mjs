@@ -44,6 +44,25 @@ const strange = {
   "an import that is not there": `Table(language: 1, name: "lone", imports: {"other": "../../etc/passwd"}, functions: [])`,
   "half of a pair of UTF-16": "Table(name: \"\ud800\")",
 };
+/** Symmetries whose images never come back to where they began. */
+const orbits = `Table(language: 2, name: "orbits", hit_policy: First,
+  inputs: {"x": Range(from: 0, to: 1), "y": Range(from: 0, to: 1), "a": Int(from: 0, to: 50)},
+  symmetries: {"half": Symmetry(map: {"x": "x * 0.7 + 0.1"}), "turn": Symmetry(map: {"x": "0.6 * x - 0.8 * y + 0.5", "y": "0.8 * x + 0.6 * y"}), "on": Symmetry(map: {"a": "(a + 1) % 51"})},
+  output: Number(), cases: [Case(id: 1, when: "x < 0.3 && a % 7 == 2", value: "x * y"MORE)], default: 0)`;
+test("the page lives through endless orbits", async () => {
+  const page = await open(browser, { hash: "#smsr" });
+  await verdict(page);
+  // As cases they are refused; as symmetries they are looked at as far as is reasonable.
+  await paste(page, orbits.replace("MORE", ', images: ["half", "turn", "on"]'));
+  await verdict(page, "bad");
+  await paste(page, orbits.replace("MORE", ""));
+  await page.waitForFunction(() => !/^(busy|bad)$/.test(document.querySelector("#message").className), undefined, { timeout: 60_000 });
+  for (const tab of ["findings", "atlas", "code", "coverage", "run"]) await page.click(`#tab-${tab}`);
+  await alive(page);
+  assert.deepEqual(page.said, []);
+  await page.context().close();
+});
+
 for (const [name, table] of Object.entries(strange)) {
   test(`the page lives through ${name}`, async () => {
     const page = await open(browser, { hash: "#smsr" });

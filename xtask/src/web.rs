@@ -18,9 +18,12 @@ pub(crate) fn run(steps: &mut Steps, root: &Path, arguments: &[String]) -> Resul
     let web = root.join("web");
     target(steps)?;
     node()?;
-    let mut compiler = cargo(&["build", "--release", "--locked"]);
-    compiler.current_dir(web.join("wasm"));
-    steps.run("compiler for the page", compiler)?;
+    // A workspace of its own, with its own settings beside it.
+    for (name, words) in [("formatting", &["fmt", "--check"][..]), ("compiler for the page", &["build", "--release"])] {
+        let mut command = cargo(words);
+        command.current_dir(web.join("wasm"));
+        steps.run(name, command)?;
+    }
     packages(steps, &web)?;
     let targets = env::var_os("CARGO_TARGET_DIR").map_or_else(|| web.join("wasm/target"), PathBuf::from);
     let wasm = targets.join("wasm32-unknown-unknown/release/umbrage_playground.wasm");
