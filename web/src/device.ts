@@ -55,6 +55,10 @@ export async function run(api: Api, what: Run, words: Words): Promise<Ran> {
 async function webgpu(what: Run, words: Words): Promise<Ran> {
   const device = await gpu();
   if (!device) throw new Error("this browser offers no WebGPU device");
+  let isLost = false;
+  void device.lost.then(() => {
+    isLost = true;
+  });
   device.pushErrorScope("validation");
   device.pushErrorScope("out-of-memory");
   const module = device.createShaderModule({ code: what.wgsl });
@@ -98,6 +102,9 @@ async function webgpu(what: Run, words: Words): Promise<Ran> {
     const results = new Uint32Array(back.getMappedRange().slice(0));
     back.unmap();
     return { words: results, api: "WebGPU", device: name, took };
+  } catch (error) {
+    if (isLost) throw new Error("The device was lost while it computed. The next run asks for it anew.");
+    throw error;
   } finally {
     buffers.forEach((buffer) => buffer.destroy());
     const errors = [await device.popErrorScope(), await device.popErrorScope()];

@@ -60,6 +60,22 @@ test("a device that computes something else is found out", async () => {
   await page.context().close();
 });
 
+test("a device that is lost is asked for anew", async () => {
+  const page = await open(browser, { hash: "#smsr" });
+  await verdict(page);
+  await page.evaluate(() => {
+    const create = GPUDevice.prototype.createBindGroup;
+    GPUDevice.prototype.createBindGroup = function (descriptor) {
+      GPUDevice.prototype.createBindGroup = create;
+      this.destroy();
+      return create.call(this, descriptor);
+    };
+  });
+  assert.match(await ran(page, () => page.click("#tab-run")), /^The device was lost/);
+  assert.match(await ran(page, () => page.selectOption("#run-side", "32")), /1024 points on WebGPU.*the device agrees/s);
+  await page.context().close();
+});
+
 test("without WebGPU there is WebGL 2", async () => {
   const context = await browser.newContext();
   await context.addInitScript(() => Object.defineProperty(Navigator.prototype, "gpu", { get: () => undefined }));
