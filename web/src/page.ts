@@ -147,11 +147,12 @@ async function share(): Promise<void> {
     return;
   }
   history.replaceState(null, "", location.href.split("#")[0] + end);
+  const holds = end.startsWith("#1.") ? "it holds the whole table" : "it leads to this table";
   try {
     await navigator.clipboard.writeText(location.href);
-    toast("The link is copied: it holds the whole table.");
+    toast(`The link is copied: ${holds}.`);
   } catch {
-    toast("The address of this page is the link: it holds the whole table.");
+    toast(`The address of this page is the link: ${holds}.`);
   }
 }
 
