@@ -10,6 +10,8 @@ use encase::internal::WriteInto;
 use wgpu::util::DeviceExt;
 
 use super::Gpu;
+#[cfg(any(feature = "render", test))]
+use super::pass::RECORD;
 use crate::diag::{Diagnostic, Failure, codes};
 
 impl Gpu {
@@ -96,6 +98,25 @@ impl Gpu {
         let mut buffer = encase::UniformBuffer::new(Vec::new());
         buffer.write(value).map_err(|error| unwritable(label, &error))?;
         Ok(self.filled(label, &buffer.into_inner(), wgpu::BufferUsages::UNIFORM))
+    }
+
+    /// A uniform buffer of records: values of a uniform, each laid out as the structure of the same fields in WGSL.
+    ///
+    /// # Errors
+    /// When the structure cannot be laid out.
+    pub(crate) fn records<T: ShaderType + WriteInto>(
+        &self,
+        label: &str,
+        values: &[T],
+    ) -> Result<wgpu::Buffer, Failure> {
+        let mut bytes = vec![0; values.len().max(1) * RECORD as usize];
+        for (value, place) in values.iter().zip(bytes.chunks_mut(RECORD as usize)) {
+            let mut buffer = encase::UniformBuffer::new(Vec::new());
+            buffer.write(value).map_err(|error| unwritable(label, &error))?;
+            let value = buffer.into_inner();
+            place[..value.len()].copy_from_slice(&value);
+        }
+        Ok(self.filled(label, &bytes, wgpu::BufferUsages::UNIFORM))
     }
 
     /// A buffer for the numbers of workgroups of an indirect dispatch, written by copying.

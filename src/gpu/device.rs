@@ -141,6 +141,13 @@ impl Gpu {
         self.device.limits().max_buffer_size
     }
 
+    /// The bytes of the largest storage buffer that a shader can have.
+    #[cfg(feature = "render")]
+    pub(crate) fn largest_storage(&self) -> u64 {
+        let limits = self.device.limits();
+        limits.max_buffer_size.min(limits.max_storage_buffer_binding_size)
+    }
+
     /// Waits until everything submitted is done.
     ///
     /// # Errors

@@ -23,4 +23,6 @@ pub use kernel::Kernel;
 #[cfg(feature = "render")]
 pub(crate) use data::{laid_out, view};
 #[cfg(feature = "render")]
+pub(crate) use wgpu::ComputePassTimestampWrites as TimestampWrites;
+#[cfg(feature = "render")]
 pub(crate) use wgpu::{Buffer, CommandEncoder, CompareFunction, Texture, TextureFormat, TextureView};

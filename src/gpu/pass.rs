@@ -29,7 +29,20 @@ pub(crate) struct Module {
     interface: Interface,
     /// By number; those between that the shader does not use are empty.
     groups: Vec<wgpu::BindGroupLayout>,
+    varying: Option<Varying>,
 }
+
+/// A uniform of which each dispatch has another value.
+#[derive(Debug)]
+struct Varying {
+    name: String,
+    group: u32,
+    /// The bytes of a value.
+    size: u64,
+}
+
+/// Bytes from one record of a varying uniform to the next: what every device allows.
+pub(crate) const RECORD: u64 = 256;
 
 /// Resources by the names of the shader's variables.
 #[derive(Debug, Default)]
@@ -83,7 +96,21 @@ impl<'r> Resources<'r> {
 #[derive(Debug)]
 pub(crate) struct Bound {
     pub(super) groups: Vec<wgpu::BindGroup>,
+    /// The group of the varying uniform.
+    varying: Option<u32>,
 }
+
+impl Bound {
+    /// The groups by number, each with the offsets for a record of the varying uniform.
+    fn at(&self, record: u32) -> impl Iterator<Item = (u32, &wgpu::BindGroup, Option<u32>)> {
+        let offset = move |number| (self.varying == Some(number)).then_some(record * RECORD as u32);
+        (0..).zip(&self.groups).map(move |(number, group)| (number, group, offset(number)))
+    }
+}
+
+/// Most workgroups along an axis, on every device.
+#[cfg(any(feature = "render", test))]
+const MOST_GROUPS: u32 = 65535;
 
 /// A compute pipeline.
 #[derive(Debug)]
@@ -108,8 +135,32 @@ impl Module {
     /// # Errors
     /// When the device refuses the shader, or the shader wants what is not provided here.
     pub(crate) fn new(gpu: &Gpu, label: &str, validated: Validated) -> Result<Self, Failure> {
+        Self::made(gpu, label, validated, None)
+    }
+
+    /// Takes a shader to a device of which each dispatch has its own value of a uniform, as long as so many bytes: the
+    /// buffer that is bound to it holds a value every [`RECORD`] bytes.
+    ///
+    /// # Errors
+    /// When the device refuses the shader, or the shader wants what is not provided here.
+    #[cfg(any(feature = "render", test))]
+    pub(crate) fn varying(
+        gpu: &Gpu,
+        label: &str,
+        validated: Validated,
+        (uniform, size): (&str, u64),
+    ) -> Result<Self, Failure> {
+        Self::made(gpu, label, validated, Some((uniform.to_owned(), size)))
+    }
+
+    fn made(gpu: &Gpu, label: &str, validated: Validated, varying: Option<(String, u64)>) -> Result<Self, Failure> {
         let device = &gpu.device;
         let interface = Interface::new(&validated).map_err(|reason| refused(label, &reason))?;
+        let varying = varying.map(|(name, size)| {
+            let group = interface.resources.iter().find(|resource| resource.name == name).map_or(0, |it| it.group);
+            Varying { name, group, size }
+        });
+        let varies = |resource: &Resource| varying.as_ref().is_some_and(|varying| varying.name == resource.name);
         let source = wgpu::ShaderSource::Naga(Cow::Owned(validated.module));
         let name = Some(label);
         let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: name, source });
@@ -118,7 +169,9 @@ impl Module {
         for group in 0..count {
             let entries = used(&interface)
                 .filter(|(resource, _)| resource.group == group)
-                .map(|(resource, visibility)| layout_entry(resource, visibility).map_err(|e| refused(label, &e)))
+                .map(|(resource, visibility)| {
+                    layout_entry(resource, visibility, varies(resource)).map_err(|e| refused(label, &e))
+                })
                 .collect::<Result<Vec<_>, Failure>>()?;
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: name, entries: &entries };
             groups.push(device.create_bind_group_layout(&descriptor));
@@ -130,7 +183,7 @@ impl Module {
             immediate_size: 0,
         });
         gpu.check()?;
-        Ok(Self { label: label.to_owned(), shader, layout, interface, groups })
+        Ok(Self { label: label.to_owned(), shader, layout, interface, groups, varying })
     }
 
     /// Binds resources by name: all that some entry point uses. What the shader declares and does not use is left out.
@@ -157,14 +210,19 @@ impl Module {
             let entries: Vec<_> = used(&self.interface)
                 .filter(|(resource, _)| resource.group == group)
                 .filter_map(|(resource, _)| {
-                    let resource_given = given(&resource.name)?.resource.clone();
+                    let mut resource_given = given(&resource.name)?.resource.clone();
+                    if let (Some(varying), wgpu::BindingResource::Buffer(buffer)) = (&self.varying, &mut resource_given)
+                        && varying.name == resource.name
+                    {
+                        buffer.size = wgpu::BufferSize::new(varying.size);
+                    }
                     Some(wgpu::BindGroupEntry { binding: resource.binding, resource: resource_given })
                 })
                 .collect();
             let descriptor = wgpu::BindGroupDescriptor { label: Some(&self.label), layout, entries: &entries };
             gpu.device.create_bind_group(&descriptor)
         });
-        let bound = Bound { groups: groups.collect() };
+        let bound = Bound { groups: groups.collect(), varying: self.varying.as_ref().map(|varying| varying.group) };
         gpu.check()?;
         Ok(bound)
     }
@@ -212,6 +270,39 @@ impl Compute {
         Work::Groups(groups)
     }
 
+    /// The workgroups that give a thread to each of so many items in a line, in as many rows as it takes: the shader
+    /// counts workgroups row by row.
+    #[cfg(any(feature = "render", test))]
+    pub(crate) fn in_line(&self, items: u32) -> Work<'static> {
+        let groups = items.div_ceil(self.workgroup.iter().product::<u32>().max(1)).max(1);
+        let rows = groups.div_ceil(MOST_GROUPS);
+        Work::Groups([groups.div_ceil(rows), rows, 1])
+    }
+
+    /// Encodes a pass of one dispatch for each of some records of a varying uniform, with these bindings in turn.
+    #[cfg(any(feature = "render", test))]
+    pub(crate) fn encode_records(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        bound: [&Bound; 2],
+        work: Work<'_>,
+        records: impl Iterator<Item = u32>,
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) {
+        let descriptor = wgpu::ComputePassDescriptor { label: None, timestamp_writes };
+        let mut pass = encoder.begin_compute_pass(&descriptor);
+        pass.set_pipeline(&self.pipeline);
+        for (turn, record) in records.enumerate() {
+            for (number, group, offset) in bound[turn % 2].at(record) {
+                pass.set_bind_group(number, group, offset.as_slice());
+            }
+            match work {
+                Work::Groups([x, y, z]) => pass.dispatch_workgroups(x, y, z),
+                Work::Indirect(buffer) => pass.dispatch_workgroups_indirect(buffer, 0),
+            }
+        }
+    }
+
     /// Encodes a pass of `repeats` equal dispatches.
     pub(crate) fn encode(
         &self,
@@ -224,8 +315,8 @@ impl Compute {
         let descriptor = wgpu::ComputePassDescriptor { label: None, timestamp_writes };
         let mut pass = encoder.begin_compute_pass(&descriptor);
         pass.set_pipeline(&self.pipeline);
-        for (number, group) in (0..).zip(&bound.groups) {
-            pass.set_bind_group(number, group, &[]);
+        for (number, group, offset) in bound.at(0) {
+            pass.set_bind_group(number, group, offset.as_slice());
         }
         for _ in 0..repeats {
             match work {
@@ -270,8 +361,12 @@ fn refused(label: &str, reason: &str) -> Failure {
     Failure::bare("", Diagnostic::error(codes::DEVICE, headline).help("please report this"))
 }
 
-fn layout_entry(resource: &Resource, visibility: wgpu::ShaderStages) -> Result<wgpu::BindGroupLayoutEntry, String> {
-    let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+fn layout_entry(
+    resource: &Resource,
+    visibility: wgpu::ShaderStages,
+    has_dynamic_offset: bool,
+) -> Result<wgpu::BindGroupLayoutEntry, String> {
+    let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None };
     let ty = match &resource.kind {
         Kind::Uniform => buffer(wgpu::BufferBindingType::Uniform),
         Kind::Storage { writable } => buffer(wgpu::BufferBindingType::Storage { read_only: !writable }),

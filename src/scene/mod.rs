@@ -19,7 +19,7 @@ use std::path::Path;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::scene::light::{Light, Lights, Punctual};
-use crate::scene::matter::Matter;
+use crate::scene::matter::{Matter, Shine};
 use crate::scene::view::Camera;
 use crate::text::closest::nearest;
 use crate::text::file;
@@ -56,6 +56,8 @@ pub struct Object {
     pub colour: [f64; 3],
     /// The matter inside of its surface, for techniques that look there.
     pub matter: Matter,
+    /// Facets of its surface, for techniques that reflect light.
+    pub shine: Option<Shine>,
     /// True of objects that the shadow map is fitted to.
     pub casts: bool,
     /// Its surface, seen from both sides.

@@ -42,9 +42,26 @@
 //! `search_plan`, `quad_diagonal`, `triangle_configuration`, `triangle_region`, `triangle_rays`, `closest_point_setup`,
 //! `closest_point_start`, `closest_point_step` and `clip_step`, and of the functions `term` and `small` of
 //! `edge_integral` and `hash`, `unit` and `jitter` of `pcg`. It provides what these fetch.
+//!
+//! **Convolution shadows** are two compute shaders. `convolve_layers` makes layered depth images
+//! (`count`, `scan_blocks`, `scan_sums`, `add_sums`, `scatter`, `arrange`, `mark`) with the function
+//! `crossed` of `policies`; `convolve` sweeps light through slabs (`begin`, `sweep`) with the table
+//! `slab` and the functions `opacity`, `transmittance` and `specular` of `shade`, `hash` of `noise`.
 
 /// The names of the skeletons.
-pub const NAMES: [&str; 9] = ["hard", "pcf", "smsr", "rsmss", "rpcf", "casefree", "integrals", "peel", "discontinuity"];
+pub const NAMES: [&str; 11] = [
+    "hard",
+    "pcf",
+    "smsr",
+    "rsmss",
+    "rpcf",
+    "casefree",
+    "integrals",
+    "peel",
+    "discontinuity",
+    "convolve_layers",
+    "convolve",
+];
 
 /// The text around the modules of a technique's tables, as exact as the technique was published.
 pub fn wgsl(name: &str) -> Option<String> {
@@ -52,6 +69,8 @@ pub fn wgsl(name: &str) -> Option<String> {
         "integrals" => Some(INTEGRALS.to_owned()),
         "peel" => Some(AREA.to_owned()),
         "discontinuity" => Some(SEARCH.to_owned()),
+        "convolve_layers" => Some(CONVOLVE_LAYERS.to_owned()),
+        "convolve" => Some(CONVOLVE.to_owned()),
         _ => Revectorised::EXACT.wgsl(name),
     }
 }
@@ -64,6 +83,12 @@ pub(crate) const AREA: &str = include_str!("area.wgsl");
 
 /// The visible part of polygons of light, searched for by rays.
 pub(crate) const SEARCH: &str = include_str!("search.wgsl");
+
+/// Surfaces at pixels, counted, listed and sorted.
+pub(crate) const CONVOLVE_LAYERS: &str = include_str!("convolve_layers.wgsl");
+
+/// Light through slabs.
+pub(crate) const CONVOLVE: &str = include_str!("convolve.wgsl");
 
 /// The reads of a shadow map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -136,7 +161,9 @@ mod tests {
 
     #[test]
     fn every_skeleton_of_a_picture_is_whole_with_its_table() {
-        for name in NAMES.into_iter().filter(|name| !["integrals", "peel", "discontinuity"].contains(name)) {
+        // Others are whole shaders.
+        let is_part = |name: &&str| wgsl(name).is_some_and(|text| !text.contains("@compute"));
+        for name in NAMES.into_iter().filter(is_part) {
             let table = match name {
                 "smsr" => Some("tables/smsr.ron"),
                 "rsmss" | "rpcf" => Some("tables/rsmss.ron"),

@@ -3,6 +3,7 @@
 
 mod adapter;
 mod area_agreement;
+mod convolution_agreement;
 mod diff;
 mod reordering;
 mod search_agreement;

@@ -15,7 +15,7 @@ use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use serde::Deserialize;
 
 use crate::diag::{Diagnostic, Source, codes};
-use crate::scene::matter::Matter;
+use crate::scene::matter::{Matter, Shine};
 use crate::scene::shapes::Shape;
 use crate::scene::shapes::letters;
 use crate::scene::shapes::solid::{Solid, Triangle};
@@ -69,6 +69,8 @@ struct ObjectRon<'a> {
     #[serde(default)]
     matter: Option<Raw<'a>>,
     #[serde(default)]
+    shine: Option<Raw<'a>>,
+    #[serde(default)]
     copies: Option<Raw<'a>>,
 }
 
@@ -81,6 +83,15 @@ struct MatterRon<'a> {
     length: Option<Raw<'a>>,
     #[serde(default)]
     transport: Option<Raw<'a>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Shine", deny_unknown_fields)]
+struct ShineRon<'a> {
+    #[serde(borrow)]
+    exponent: Raw<'a>,
+    #[serde(default)]
+    reflectance: Option<Raw<'a>>,
 }
 
 #[derive(Deserialize)]
@@ -282,6 +293,14 @@ impl<'a> Read<'a> {
         })
     }
 
+    fn shine(&self, raw: Raw<'a>) -> Result<Shine> {
+        let ron: ShineRon<'_> = self.reader.get(raw)?;
+        Ok(Shine {
+            exponent: self.number(ron.exponent, 1.0, 1000.0)?,
+            reflectance: self.or(ron.reflectance, 0.04, |raw| self.number(raw, 0.0, 1.0))?,
+        })
+    }
+
     fn object(&self, raw: Raw<'a>) -> Result<Object> {
         let ron: ObjectRon<'_> = self.reader.get(raw)?;
         let at = self.or(ron.at, DVec3::ZERO, |raw| self.place(raw))?;
@@ -289,6 +308,7 @@ impl<'a> Read<'a> {
         let scale = self.or(ron.scale, 1.0, |raw| self.length(raw))?;
         let colour = self.or(ron.colour, [0.75, 0.75, 0.75], |raw| self.colour(raw))?;
         let matter = self.or(ron.matter, Matter::OPAQUE, |raw| self.matter(raw))?;
+        let shine = ron.shine.map(|raw| self.shine(raw)).transpose()?;
         let (count, step) = match ron.copies {
             None => (1, DVec3::ZERO),
             Some(raw) => {
@@ -308,7 +328,7 @@ impl<'a> Read<'a> {
         for index in 0..count {
             solid.add(&shape, &place(index), scale);
         }
-        Ok(Object { colour, matter, casts, triangles: solid.triangles, parts: solid.parts })
+        Ok(Object { colour, matter, shine, casts, triangles: solid.triangles, parts: solid.parts })
     }
 
     /// The surface of a shape, and whether the shadow map is fitted to it.

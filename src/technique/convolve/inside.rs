@@ -87,13 +87,7 @@ impl Changes {
             changes.odd.push(inside);
             changes.first.push(changes.all.len());
         }
-        let odd = changes.odd.iter().filter(|odd| **odd).count();
-        if odd > 0 && rule.odd_list == "error" {
-            let message = format!("at {odd} of {pixels} pixels a surface is entered and never left");
-            let error = Diagnostic::error(codes::RENDER, message).help("close the meshes of the scene");
-            let others = "or choose what becomes of them: `--set odd=drop_last` or `--set odd=close_at_end`";
-            return Err(Failure::bare("", error.help(others)));
-        }
+        refuse_odd(changes.odd.iter().filter(|odd| **odd).count(), pixels, rule)?;
         Ok(changes)
     }
 
@@ -101,4 +95,15 @@ impl Changes {
     pub fn of(&self, pixel: usize) -> &[Change] {
         &self.all[self.first[pixel]..self.first[pixel + 1]]
     }
+}
+
+/// Refuses lists that end inside, if they are not to be.
+pub(super) fn refuse_odd(odd: usize, pixels: usize, rule: InsideRule) -> Result<(), Failure> {
+    if odd == 0 || rule.odd_list != "error" {
+        return Ok(());
+    }
+    let message = format!("at {odd} of {pixels} pixels a surface is entered and never left");
+    let error = Diagnostic::error(codes::RENDER, message).help("close the meshes of the scene");
+    let others = "or choose what becomes of them: `--set odd=drop_last` or `--set odd=close_at_end`";
+    Err(Failure::bare("", error.help(others)))
 }

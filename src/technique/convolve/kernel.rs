@@ -106,6 +106,11 @@ impl Kernel {
         Ok(all)
     }
 
+    /// Returns whether its samples can move along a curve.
+    pub fn has_phase(&self) -> bool {
+        matches!(self.family, "ring_affine" | "ring_arc" | "poisson8" | "poisson16")
+    }
+
     /// Returns whether its samples lie on pixels, so that nothing is interpolated.
     pub fn is_whole(&self) -> bool {
         matches!(self.family, "frac_box" | "binomial3")

@@ -6,9 +6,11 @@ use std::sync::Mutex;
 
 use super::functions::Function;
 use super::inside::{Change, Changes};
+use super::stack::Stack;
+use super::surface::{Facets, Surface};
 use super::sweep::{Matter, Slabs};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::scene::matter::Matter as Contents;
+use crate::scene::matter::{Matter as Contents, Shine};
 use crate::technique::tables::{SHADE, SLAB};
 
 /// An object's substance.
@@ -18,6 +20,18 @@ pub struct Material {
     pub colour: [f64; 3],
     /// Its contents.
     pub matter: Contents,
+    /// Facets of its surface.
+    pub shine: Option<Shine>,
+}
+
+impl Material {
+    /// The facets of its surface, if it has any.
+    ///
+    /// # Errors
+    /// Never with the tables that come with Umbrage.
+    pub(super) fn facets(&self) -> Result<Option<Facets>, Failure> {
+        self.shine.map(|shine| Facets::new(shine.exponent, shine.reflectance)).transpose()
+    }
 }
 
 /// Policies of slabs: names of levels of `tables/policies.ron`.
@@ -27,25 +41,6 @@ pub struct SlabPolicies {
     pub coverage: &'static str,
     /// Of the set `hit`.
     pub hit: &'static str,
-}
-
-/// The places at which slabs begin and end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stack {
-    /// Depth of the front of the first one.
-    pub front: f64,
-    /// Thickness of each.
-    pub thickness: f64,
-    /// The number of slabs.
-    pub count: usize,
-}
-
-impl Stack {
-    /// The depths at which a slab begins and ends; the next one begins exactly there.
-    pub fn slab(&self, index: usize) -> (f64, f64) {
-        let at = |index: usize| self.front + index as f64 * self.thickness;
-        (at(index), at(index + 1))
-    }
 }
 
 /// A place to sample, of those in the level set `place` of `tables/slab.ron`.
@@ -65,6 +60,8 @@ enum Place {
 struct Case {
     inside_after: bool,
     place: Place,
+    /// Set if a surface is seen in it.
+    surface: bool,
 }
 
 /// Crossings of which cases are kept; more are rare, and asked for each time.
@@ -74,21 +71,49 @@ const KEPT: usize = 8;
 #[derive(Debug)]
 pub struct SceneSlabs<'c> {
     changes: &'c Changes,
-    stack: Stack,
+    stack: &'c Stack,
     width: usize,
     policies: SlabPolicies,
     /// One for each object.
     materials: Vec<Material>,
     cases: Vec<[Case; 2]>,
     slab: Function,
-    opacity: Function,
-    transmittance: Function,
+    ways: Ways,
     /// Opacity and transmittance by material and length of the way.
     known: Mutex<HashMap<(usize, u64), Through>>,
 }
 
 /// Opacity, and the share of light that goes on by colour.
-type Through = (f64, [f64; 3]);
+pub(super) type Through = (f64, [f64; 3]);
+
+/// The functions of `tables/shade.ron` that ways through matter have.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ways {
+    opacity: Function,
+    transmittance: Function,
+}
+
+/// The functions of ways.
+///
+/// # Errors
+/// Never with the tables that come with Umbrage.
+pub(super) fn ways() -> Result<Ways, Failure> {
+    Ok(Ways { opacity: Function::of(&SHADE, "opacity")?, transmittance: Function::of(&SHADE, "transmittance")? })
+}
+
+impl Ways {
+    /// Opacity and transmittance of a way through a material.
+    pub(super) fn of(&self, material: &Material, path: f64) -> Through {
+        let Contents { opacity, length, transport } = material.matter;
+        let given = [("alpha_ref", opacity.into()), ("e_ref", length.into()), ("path", path.into())];
+        let alpha = self.opacity.call(&given).and_then(|answer| answer.number("value")).unwrap_or(0.0);
+        let goes_on = |transport: f64| {
+            let given = [given[0], given[1], given[2], ("transport", transport.into())];
+            self.transmittance.call(&given).and_then(|answer| answer.number("value")).unwrap_or(1.0)
+        };
+        (alpha, transport.map(goes_on))
+    }
+}
 
 /// A pixel between slabs.
 #[derive(Debug, Clone, Copy)]
@@ -108,7 +133,7 @@ impl<'c> SceneSlabs<'c> {
     /// Never with the tables that come with Umbrage.
     pub fn new(
         changes: &'c Changes,
-        stack: Stack,
+        stack: &'c Stack,
         width: usize,
         policies: SlabPolicies,
         materials: Vec<Material>,
@@ -126,31 +151,22 @@ impl<'c> SceneSlabs<'c> {
             materials,
             cases: (0..KEPT).map(both).collect::<Result<_, Failure>>()?,
             slab,
-            opacity: Function::of(&SHADE, "opacity")?,
-            transmittance: Function::of(&SHADE, "transmittance")?,
+            ways: ways()?,
             known: Mutex::default(),
         })
     }
 
     /// Of each slab, whether it holds matter at any pixel.
     pub fn occupied(&self) -> Vec<bool> {
-        let mut starts = vec![0_i64; self.stack.count + 1];
-        let index = |depth: f64| {
-            let guess = ((depth - self.stack.front) / self.stack.thickness).floor();
-            guess.clamp(0.0, (self.stack.count - 1) as f64) as usize
-        };
+        let count = self.stack.count();
+        let mut starts = vec![0_i64; count + 1];
         for pixel in 0..self.changes.first.len() - 1 {
             for pair in self.changes.of(pixel).chunks(2) {
-                // One more on either side, as the guess may be off by rounding.
-                let from = index(pair[0].at.depth).saturating_sub(1);
-                let to = pair.get(1).map_or(self.stack.count - 1, |end| index(end.at.depth));
-                starts[from] += 1;
-                starts[(to + 2).min(self.stack.count)] -= 1;
+                starts[self.stack.slab_of(pair[0].at.depth)] += 1;
+                starts[pair.get(1).map_or(count, |end| self.stack.slab_of(end.at.depth) + 1)] -= 1;
             }
         }
-        let mut open = 0;
-        starts.truncate(self.stack.count);
-        starts.iter().map(|change| (open += change, open > 0).1).collect()
+        occupied(&starts)
     }
 
     fn case(&self, inside: bool, crossings: usize) -> Case {
@@ -167,14 +183,7 @@ impl<'c> SceneSlabs<'c> {
         if let Some(known) = self.known.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get(&key) {
             return *known;
         }
-        let Contents { opacity, length, transport } = self.materials[object].matter;
-        let given = [("alpha_ref", opacity.into()), ("e_ref", length.into()), ("path", path.into())];
-        let alpha = self.opacity.call(&given).and_then(|answer| answer.number("value")).unwrap_or(0.0);
-        let goes_on = |transport: f64| {
-            let given = [given[0], given[1], given[2], ("transport", transport.into())];
-            self.transmittance.call(&given).and_then(|answer| answer.number("value")).unwrap_or(1.0)
-        };
-        let through = (alpha, transport.map(goes_on));
+        let through = self.ways.of(&self.materials[object], path);
         let mut known = self.known.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         // Ways of exactly the same length are those of whole slabs and of flat faces: others need not be kept.
         if known.len() < 1 << 16 {
@@ -187,7 +196,9 @@ impl<'c> SceneSlabs<'c> {
     fn parts(&self, cursor: &Cursor, changes: &[Change], (front, back): (f64, f64)) -> (f64, usize) {
         let (mut from, mut inside, mut medium) = (front, cursor.inside, cursor.medium);
         let (mut sum, mut longest, mut of) = (0.0, 0.0, cursor.medium);
-        let ends = changes.iter().map(|change| (change.at.depth.max(front), change.inside, change.at.object as usize));
+        let ends = changes
+            .iter()
+            .map(|change| (f64::from(change.at.depth).max(front), change.inside, change.at.object as usize));
         for (depth, inside_next, object) in ends.chain([(back, false, 0)]) {
             if inside {
                 let length = depth - from;
@@ -201,13 +212,13 @@ impl<'c> SceneSlabs<'c> {
         (sum, of)
     }
 
-    fn sample(&self, cursor: &Cursor, changes: &[Change], place: Place, ends: (f64, f64)) -> Option<Matter> {
+    fn sample(&self, cursor: &Cursor, changes: &[Change], case: Case, ends: (f64, f64)) -> Option<Matter> {
         let full = self.policies.coverage == "full";
-        let (path, object) = match place {
+        let hit = if self.policies.hit == "first" { changes.first() } else { changes.last() };
+        let (path, object) = match case.place {
             Place::Nowhere => return None,
             Place::Within => (self.stack.thickness, cursor.medium),
             Place::AtSurface | Place::InPart if full => {
-                let hit = if self.policies.hit == "first" { changes.first() } else { changes.last() };
                 // Where the ray comes out, the matter is that which it was in.
                 let object = hit.map_or(cursor.medium, |hit| hit.at.object as usize);
                 (self.stack.thickness, object)
@@ -215,8 +226,15 @@ impl<'c> SceneSlabs<'c> {
             Place::AtSurface | Place::InPart => self.parts(cursor, changes, ends),
         };
         let (alpha, through) = if path > 0.0 { self.through(object, path) } else { return None };
-        Some(Matter { alpha, through, colour: self.materials[object].colour })
+        let surface = hit.filter(|_| case.surface).map(|hit| Surface { normal: hit.at.normal, object });
+        Some(Matter { alpha, through, colour: self.materials[object].colour, surface })
     }
+}
+
+/// Of each slab, whether it holds matter, from the changes of the number of pixels that do at its front.
+pub(super) fn occupied(starts: &[i64]) -> Vec<bool> {
+    let mut open = 0;
+    starts[..starts.len() - 1].iter().map(|change| (open += change, open > 0).1).collect()
 }
 
 /// The case of a slab, from the table.
@@ -238,7 +256,7 @@ fn case(slab: Function, inside: bool, crossings: usize, coverage: &str) -> Resul
             return Err(Failure::bare("", Diagnostic::error(codes::NOT_APPLICABLE, message)));
         }
     };
-    Ok(Case { inside_after: answer.holds("inside_after")?, place })
+    Ok(Case { inside_after: answer.holds("inside_after")?, place, surface: answer.holds("surface")? })
 }
 
 impl Slabs for SceneSlabs<'_> {
@@ -254,9 +272,9 @@ impl Slabs for SceneSlabs<'_> {
         for (x, (cursor, out)) in row.iter_mut().zip(out).enumerate() {
             let end = self.changes.first[y * self.width + x + 1];
             let ahead = &self.changes.all[cursor.next..end];
-            let changes = &ahead[..ahead.iter().take_while(|change| change.at.depth < ends.1).count()];
+            let changes = &ahead[..ahead.iter().take_while(|change| f64::from(change.at.depth) < ends.1).count()];
             let case = self.case(cursor.inside, changes.len());
-            *out = self.sample(cursor, changes, case.place, ends);
+            *out = self.sample(cursor, changes, case, ends);
             cursor.next += changes.len();
             cursor.inside = case.inside_after;
             if let Some(last) = changes.last() {

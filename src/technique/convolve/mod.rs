@@ -16,17 +16,24 @@
 //! `ellipse`, `light_kernel`, `slab`, `policies`, `shade`. This module asks them; what it knows
 //! itself is how triangles become layers, and how images are gathered.
 
+pub mod dither;
 mod entry;
+pub mod flat;
 mod functions;
+#[cfg(feature = "gpu")]
+mod gpu;
 pub mod inside;
 pub mod kernel;
 pub mod layers;
 pub mod light;
 pub mod matter;
+pub mod octahedron;
 pub mod picture;
 pub mod settings;
+pub mod stack;
 pub mod stencil;
 pub mod steps;
+pub mod surface;
 pub mod sweep;
 #[cfg(test)]
 mod tests;

@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
+use super::dither::Dither;
 use super::inside::Changes;
 use super::layers::Layers;
 use super::light::{SlopeLight, nodes};
-use super::matter::{Material, SceneSlabs, Stack};
+use super::matter::{Material, SceneSlabs};
 use super::settings::Chosen;
+use super::stack::Stack;
 use super::stencil::Real;
-use super::steps::{Spread, steps};
+use super::steps::{Spread, Steps};
+use super::surface::{Slope, Surfaces};
 use super::sweep::{Seen, Sweep};
 use super::view::SlabView;
 use crate::diag::{Diagnostic, Failure, codes};
@@ -26,7 +29,9 @@ pub struct Crossed {
     /// Crossings of each pixel.
     counts: Vec<u32>,
     /// The nearest and the farthest surface; `None` where nothing is seen.
-    depths: Option<(f64, f64)>,
+    depths: Option<(f32, f32)>,
+    /// The depth that depths are relative to.
+    base: f64,
 }
 
 /// The result of a frame.
@@ -53,39 +58,93 @@ impl Crossed {
             let layers = Layers::new(frame.scene, &view)?;
             let counts = layers.first.windows(2).map(|ends| (ends[1] - ends[0]) as u32).collect();
             let changes = Changes::new(&layers, chosen.inside)?;
-            Ok(Self { view, changes, counts, depths: layers.depths() })
+            Ok(Self { view, changes, counts, depths: layers.depths(), base: layers.base })
         })
     }
 
     /// The slabs that hold everything that is seen: the farthest surface lies before the end of the last one.
     pub fn stack(&self, count: usize) -> Option<Stack> {
-        let (front, back) = self.depths?;
-        let depth = (back - front).max(1e-6 * front.abs().max(1.0)) * (1.0 + 1e-9);
-        Some(Stack { front, thickness: depth / count as f64, count })
+        Some(Stack::holding(self.base, self.depths?, count))
     }
 }
 
 /// The materials of a scene's objects.
-fn materials(scene: &Scene) -> Vec<Material> {
-    scene.objects.iter().map(|object| Material { colour: object.colour, matter: object.matter }).collect()
+pub(super) fn materials(scene: &Scene) -> Vec<Material> {
+    scene
+        .objects
+        .iter()
+        .map(|object| Material { colour: object.colour, matter: object.matter, shine: object.shine })
+        .collect()
 }
 
-/// Renders a frame.
+/// The distance at which penumbras are right: as chosen, or half of the depth of all slabs.
+pub(super) fn d1_for(chosen: &Chosen, stack: &Stack) -> f64 {
+    if chosen.spread.d1 > 0.0 { chosen.spread.d1 } else { 0.5 * stack.thickness * stack.count() as f64 }
+}
+
+/// The surfaces of a picture under some lights.
+pub(super) fn surfaces(
+    lights: &[SlopeLight],
+    materials: &[Material],
+    chosen: &Chosen,
+    stack: &Stack,
+) -> Result<Surfaces, Failure> {
+    let slope = chosen.compensates.then(|| Slope::new(stack.thickness, d1_for(chosen, stack))).transpose()?;
+    Surfaces::new(lights, materials, slope)
+}
+
+/// The lights of a picture, divided into those that are swept together: pictures of all portions add up.
+#[derive(Debug)]
+pub(super) struct Portions(Vec<Vec<SlopeLight>>);
+
+impl Portions {
+    /// All parts of all lights together; or frame by frame one part of each, the next one in each frame.
+    ///
+    /// # Errors
+    /// When a light cannot be used.
+    pub(super) fn new(scene: &Scene, view: &SlabView, chosen: &Chosen) -> Result<Self, Failure> {
+        let nodes = nodes(chosen.split.lights)?;
+        let lights = SlopeLight::of_scene(scene, view)?;
+        let parts: Vec<Vec<SlopeLight>> = lights.iter().map(|light| light.split(&nodes, chosen.split.rho)).collect();
+        if chosen.frames == 0 {
+            return Ok(Self(vec![parts.concat()]));
+        }
+        // A part stands for the whole light in its frame.
+        let share = nodes.len() as f64 / f64::from(chosen.frames);
+        let frame = |frame: u32| {
+            let part = |parts: &Vec<SlopeLight>| {
+                let part = parts[frame as usize % parts.len()];
+                SlopeLight { colour: part.colour.map(|channel| channel * share), ..part }
+            };
+            parts.iter().map(part).collect()
+        };
+        Ok(Self((0..chosen.frames).map(frame).collect()))
+    }
+
+    /// The same with at most so many lights in each portion.
+    pub(super) fn of_at_most(self, most: usize) -> Vec<Vec<SlopeLight>> {
+        let cut = |lights: Vec<SlopeLight>| match lights.len() {
+            0 => vec![lights],
+            _ => lights.chunks(most).map(<[SlopeLight]>::to_vec).collect(),
+        };
+        self.0.into_iter().flat_map(cut).collect()
+    }
+}
+
+/// Renders a frame on the CPU.
 ///
 /// # Errors
 /// When a light or a kernel cannot be used.
 pub fn picture(frame: &Frame<'_>, chosen: &Chosen) -> Result<Picture, Failure> {
     let crossed = Crossed::of(frame, chosen)?;
-    let lights = SlopeLight::of_scene(frame.scene, &crossed.view)?;
-    let nodes = nodes(chosen.split.lights)?;
-    let lights: Vec<SlopeLight> = lights.iter().flat_map(|light| light.split(&nodes, chosen.split.rho)).collect();
+    let portions = Portions::new(frame.scene, &crossed.view, chosen)?;
     let (light, opacity) = match crossed.stack(chosen.slabs) {
         None => {
             let pixels = crossed.counts.len();
             (vec![[0.0; 3]; pixels], vec![0.0; pixels])
         }
-        Some(stack) if chosen.wide => swept::<f64>(frame.scene, &crossed, stack, &lights, chosen)?,
-        Some(stack) => swept::<f32>(frame.scene, &crossed, stack, &lights, chosen)?,
+        Some(stack) if chosen.wide => swept::<f64>(frame.scene, &crossed, &stack, portions, chosen)?,
+        Some(stack) => swept::<f32>(frame.scene, &crossed, &stack, portions, chosen)?,
     };
     let odd = crossed.changes.odd.iter().map(|odd| u32::from(*odd)).collect();
     Ok(Picture { light, opacity, crossings: crossed.counts.clone(), odd })
@@ -98,15 +157,14 @@ type Pixels = (Vec<[f32; 3]>, Vec<f32>);
 fn swept<T: Real>(
     scene: &Scene,
     crossed: &Crossed,
-    stack: Stack,
-    lights: &[SlopeLight],
+    stack: &Stack,
+    portions: Portions,
     chosen: &Chosen,
 ) -> Result<Pixels, Failure> {
     let (width, height) = (crossed.view.size.0 as usize, crossed.view.size.1 as usize);
-    let slabs = SceneSlabs::new(&crossed.changes, stack, width, chosen.policies, materials(scene))?;
-    let half_depth = 0.5 * stack.thickness * stack.count as f64;
-    let d1 = if chosen.spread.d1 > 0.0 { chosen.spread.d1 } else { half_depth };
-    let spread = Spread { d1, ..chosen.spread };
+    let materials = materials(scene);
+    let slabs = SceneSlabs::new(&crossed.changes, stack, width, chosen.policies, materials.clone())?;
+    let spread = Spread { d1: d1_for(chosen, stack), ..chosen.spread };
     let occupied = slabs.occupied();
     let of_one = 2 * 3 * width * height * size_of::<T>();
     if of_one > 8 * MOST_LIGHT {
@@ -114,16 +172,17 @@ fn swept<T: Real>(
         return Err(Failure::bare("", Diagnostic::error(codes::RENDER, message).help("make the picture smaller")));
     }
     let mut sum: Option<Seen<T>> = None;
-    let none: &[SlopeLight] = &[];
-    let portions: Vec<&[SlopeLight]> = match lights.len() {
-        0 => vec![none],
-        _ => lights.chunks((MOST_LIGHT / of_one).max(1)).collect(),
-    };
-    for portion in portions {
-        let steps = steps::<T>(portion, stack, &occupied, &spread, &crossed.view)?;
+    let mut dither = Dither::new((width, height))?;
+    for portion in portions.of_at_most((MOST_LIGHT / of_one).max(1)) {
+        let steps = Steps::<T>::new(&portion, stack, &occupied, &spread, &crossed.view)?;
         let colours = portion.iter().map(|light| light.colour).collect();
-        let mut sweep = Sweep::<_, T>::new(&slabs, (width, height), colours, chosen.border);
-        steps.iter().for_each(|step| sweep.step(step));
+        let surfaces = surfaces(&portion, &materials, chosen, stack)?;
+        let mut sweep = Sweep::<_, T>::new(&slabs, (width, height), colours, chosen.border, Some(&surfaces));
+        for step in steps {
+            let step = step?;
+            let phases = if step.is_dithered() { dither.phases(step.slab, spread.seed)? } else { Vec::new() };
+            sweep.step(&step, &phases);
+        }
         match &mut sum {
             None => sum = Some(sweep.seen),
             Some(sum) => {

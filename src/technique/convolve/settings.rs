@@ -5,7 +5,7 @@ use super::kernel::Kernel;
 use super::light::Split;
 use super::matter::SlabPolicies;
 use super::stencil::Border;
-use super::steps::Spread;
+use super::steps::{Phase, Spread};
 use super::view::Projection;
 use crate::technique::Setting;
 use crate::technique::setting::{Range, Settings, Value};
@@ -36,7 +36,10 @@ pub const KERNEL: Setting = word(
 /// The samples of a ring.
 pub const SAMPLES: Setting = whole("samples", "samples of a ring", 3, (2, 64));
 /// The sequence of phases.
-pub const PHASE: Setting = word("phase", "how samples move from slab to slab", &["golden", "steady"]);
+pub const PHASE: Setting =
+    word("phase", "how samples move along their curve", &["golden", "steady", "random", "pixel"]);
+/// The number that drawn phases depend on.
+pub const SEED: Setting = whole("seed", "number that phases drawn at random depend on", 0, (0, u32::MAX));
 /// The answer to the blur of interpolation.
 pub const SMEAR: Setting =
     word("smear", "what is done about the blur of interpolation", &["advised", "none", "subtract", "stride", "snap"]);
@@ -61,6 +64,19 @@ pub const PROJECTION: Setting =
 pub const SPLIT: Setting = whole("split", "lights that each light is split into, but not 2", 1, (1, 1024));
 /// The share of its covariance that they keep.
 pub const RHO: Setting = number("rho", "share of a light's covariance that each of its parts keeps", 0.15, (0.0, 1.0));
+/// Light on slopes.
+pub const SLOPES: Setting = word(
+    "slopes",
+    "what is done about light on opaque slopes, which iterating makes too dark",
+    &["none", "compensate"],
+);
+/// Frames that are accumulated.
+pub const FRAMES: Setting = whole(
+    "frames",
+    "frames that are averaged, each with the next part of every light; 0 is all parts in one",
+    0,
+    (0, 1 << 16),
+);
 /// Steps through empty slabs.
 pub const SKIP: Setting = whole("skip", "most steps through a run of empty slabs; 0 is one a slab", 16, (0, 1 << 20));
 /// The numbers that light is kept in.
@@ -88,6 +104,10 @@ pub struct Chosen {
     pub spread: Spread,
     /// The parts of each light.
     pub split: Split,
+    /// Frames that are averaged, each with one part of every light; 0 for all parts at once.
+    pub frames: u32,
+    /// Set if light on opaque slopes is put right.
+    pub compensates: bool,
     /// Set if light is kept in double precision.
     pub wide: bool,
 }
@@ -109,12 +129,20 @@ impl Chosen {
             },
             spread: Spread {
                 kernel: Kernel { family: word(&KERNEL), samples: settings.whole(&SAMPLES) },
-                golden: word(&PHASE) == "golden",
+                phase: match word(&PHASE) {
+                    "steady" => Phase::Steady,
+                    "random" => Phase::Random,
+                    "pixel" => Phase::Pixel,
+                    _ => Phase::Golden,
+                },
+                seed: settings.whole(&SEED),
                 smear: Some(word(&SMEAR)).filter(|smear| *smear != "advised"),
                 d1: settings.number(&DISTANCE),
                 skip: settings.whole(&SKIP) as usize,
             },
             split: Split { lights, rho: if lights == 1 { 1.0 } else { settings.number(&RHO) } },
+            frames: settings.whole(&FRAMES),
+            compensates: word(&SLOPES) == "compensate",
             wide: word(&PRECISION) == "f64",
         }
     }
@@ -125,6 +153,8 @@ impl Chosen {
         Self {
             spread: Spread { smear: Some("snap"), skip: 1, ..chosen.spread },
             split: Split { lights: settings.whole(&SHARP_LIGHTS), rho: 0.0 },
+            frames: 0,
+            compensates: false,
             ..chosen
         }
     }

@@ -85,6 +85,11 @@ impl<T: Real> Stencil<T> {
         Self(vec![(0, 0, T::of(1.0))])
     }
 
+    /// The offset down, to the right and the weight of each pixel that is read.
+    pub fn taps(&self) -> &[(i64, i64, T)] {
+        &self.0
+    }
+
     /// The number of pixels that are read.
     pub fn len(&self) -> usize {
         self.0.len()
@@ -138,68 +143,89 @@ impl<T: Real> Stencil<T> {
     }
 }
 
-/// A gather of one light: the same in all pixels, or from a picture of another size, as perspective has it.
+/// A gather of one light: the same in all pixels, by a phase that is drawn for each, or from a picture of another size, as
+/// perspective has it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gather<T> {
     /// At the same offsets from every pixel.
     Same(Stencil<T>),
+    /// At the offsets of one of these, which the phase of the pixel says.
+    Dithered(Vec<Stencil<T>>),
     /// At these offsets from where the pixel was in the picture before: its distance from the middle times a factor.
     Magnified {
         /// The offsets there.
         samples: Vec<Sample>,
-        /// The factor.
-        factor: f64,
-        /// The middle of the picture.
-        middle: [f64; 2],
+        /// The factor, less 1.
+        beyond: f64,
     },
 }
 
+/// The rows of an image, and what is beside it.
+#[derive(Debug, Clone, Copy)]
+pub struct Around<T> {
+    /// The number of rows.
+    pub height: usize,
+    /// What is read beside the image.
+    pub border: Border,
+    /// Light that nothing has hindered.
+    pub light: T,
+}
+
 impl<T: Real> Gather<T> {
-    /// Gathers a row of one image, as [`Stencil::gather`] does.
-    pub fn gather<'i>(
-        &self,
-        out: &mut [T],
-        y: usize,
-        height: usize,
-        border: Border,
-        light: T,
-        row: impl Fn(usize) -> &'i [T],
-    ) where
+    /// Gathers a row of one image: `row` gives the rows of the image, `phases` are those of the row's pixels.
+    pub fn gather<'i>(&self, out: &mut [T], y: usize, around: Around<T>, phases: &[u8], row: impl Fn(usize) -> &'i [T])
+    where
         T: 'i,
     {
-        let (samples, factor, middle) = match self {
-            Gather::Same(stencil) => return stencil.gather(out, y, height, border, light, row),
-            Gather::Magnified { samples, factor, middle } => (samples, *factor, *middle),
-        };
+        let Around { height, border, light } = around;
         let width = out.len();
-        let read = |x: f64, y: f64| {
-            let inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
+        let read = |x: i64, y: i64| {
+            let inside = (0..width as i64).contains(&x) && (0..height as i64).contains(&y);
             match border {
-                Border::Unoccluded if !inside => light.wide(),
+                Border::Unoccluded if !inside => light,
                 Border::Unoccluded | Border::Clamp => {
-                    let (x, y) = (x.clamp(0.0, (width - 1) as f64), y.clamp(0.0, (height - 1) as f64));
-                    row(y as usize)[x as usize].wide()
+                    row(y.clamp(0, height as i64 - 1) as usize)[x.clamp(0, width as i64 - 1) as usize]
                 }
             }
         };
-        let before = |pixel: usize, axis: usize| middle[axis] + (pixel as f64 + 0.5 - middle[axis]) * factor - 0.5;
-        for (x, sum) in out.iter_mut().enumerate() {
-            let mut all = 0.0;
-            for Sample { at, weight } in samples {
-                let place = [before(x, 0) + at[0], before(y, 1) + at[1]];
-                let corner = place.map(f64::floor);
-                let part = [place[0] - corner[0], place[1] - corner[1]];
-                for (dy, v) in [(0.0, 1.0 - part[1]), (1.0, part[1])] {
-                    for (dx, u) in [(0.0, 1.0 - part[0]), (1.0, part[0])] {
-                        if u * v > 0.0 {
-                            all += weight * u * v * read(corner[0] + dx, corner[1] + dy);
+        match self {
+            Gather::Same(stencil) => stencil.gather(out, y, height, border, light, row),
+            Gather::Dithered(stencils) => {
+                for (x, (sum, phase)) in out.iter_mut().zip(phases).enumerate() {
+                    *sum = T::default();
+                    for (dy, dx, weight) in &stencils[usize::from(*phase)].0 {
+                        *sum += *weight * read(x as i64 + dx, y as i64 + dy);
+                    }
+                }
+            }
+            Gather::Magnified { samples, beyond, .. } => {
+                let beyond = T::of(*beyond);
+                let moved = |pixel: usize, pixels: usize| T::of(pixel as f64 + 0.5 - 0.5 * pixels as f64) * beyond;
+                let down = moved(y, height);
+                for (x, sum) in out.iter_mut().enumerate() {
+                    *sum = T::default();
+                    let right = moved(x, width);
+                    for Sample { at, weight } in samples {
+                        let ([left, u], [top, v]) = (split(right + T::of(at[0])), split(down + T::of(at[1])));
+                        for (dy, v) in [(0, T::of(1.0) - v), (1, v)] {
+                            for (dx, u) in [(0, T::of(1.0) - u), (1, u)] {
+                                let weight = T::of(*weight) * (u * v);
+                                let at = (x as i64 + left.wide() as i64 + dx, y as i64 + top.wide() as i64 + dy);
+                                *sum += weight * read(at.0, at.1);
+                            }
                         }
                     }
                 }
             }
-            *sum = T::of(all);
         }
     }
+}
+
+/// A distance as whole pixels and a part.
+fn split<T: Real>(distance: T) -> [T; 2] {
+    let near = T::of(distance.wide().clamp(-FAR, FAR));
+    let whole = T::of(near.wide().floor());
+    [whole, near - whole]
 }
 
 #[cfg(test)]

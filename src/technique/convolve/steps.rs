@@ -1,22 +1,40 @@
 //! The steps of a sweep: for each slab that is visited, how every light is gathered from the one before.
 
+use std::marker::PhantomData;
+
+use super::dither::PHASES;
 use super::functions::Function;
 use super::kernel::{Blur, Kernel, Sample};
 use super::light::SlopeLight;
-use super::matter::Stack;
+use super::stack::Stack;
 use super::stencil::{Gather, Real, Stencil};
 use super::sweep::Step;
 use super::view::{Projection, SlabView};
-use crate::diag::Failure;
-use crate::technique::tables::{KERNELS, LIGHT_KERNEL, POLICIES};
+use crate::diag::{Diagnostic, Failure, codes};
+use crate::technique::tables::{KERNELS, LIGHT_KERNEL, NOISE, POLICIES};
+
+/// The sequence in which samples move along their curve: a level of the set `phases` of `tables/kernels.ron`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// From slab to slab by the golden ratio.
+    Golden,
+    /// Not at all.
+    Steady,
+    /// Drawn for each slab and light.
+    Random,
+    /// Drawn for each pixel of each slab.
+    Pixel,
+}
 
 /// The way from blurs to samples.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
     /// The kernel.
     pub kernel: Kernel,
-    /// Set if samples move along their curve from slab to slab, by the golden ratio.
-    pub golden: bool,
+    /// The sequence of its phases.
+    pub phase: Phase,
+    /// The number that drawn phases depend on.
+    pub seed: u32,
     /// A level of the set `smear` of `tables/policies.ron`; `None` for what the table advises.
     pub smear: Option<&'static str>,
     /// The distance at which penumbras are right.
@@ -26,11 +44,13 @@ pub struct Spread {
 }
 
 /// The functions that steps are made with.
+#[derive(Debug)]
 struct Tables {
     kernel_of_light: Function,
     smear_of: Function,
     sharpened: Function,
     golden: Function,
+    hash: Function,
 }
 
 /// The answer to the blur of interpolation: a level of `smear`, and once in how many slabs the blur is applied.
@@ -41,8 +61,11 @@ struct Policy {
 }
 
 /// A light on its way through the slabs.
+#[derive(Debug)]
 struct Walk<'l> {
     light: &'l SlopeLight,
+    /// Its number, which drawn phases depend on.
+    number: usize,
     policy: Policy,
     /// Slabs since the blur was last applied.
     waiting: usize,
@@ -50,45 +73,89 @@ struct Walk<'l> {
     behind: [f64; 2],
 }
 
-/// The steps through a stack of slabs, of which some hold matter.
-///
-/// # Errors
-/// When a kernel is asked for a blur that it is not made for.
-pub fn steps<T: Real>(
-    lights: &[SlopeLight],
-    stack: Stack,
-    occupied: &[bool],
-    spread: &Spread,
-    view: &SlabView,
-) -> Result<Vec<Step<T>>, Failure> {
-    let tables = Tables {
-        kernel_of_light: Function::of(&LIGHT_KERNEL, "kernel_of_light")?,
-        smear_of: Function::of(&POLICIES, "smear_of")?,
-        sharpened: Function::of(&POLICIES, "sharpened")?,
-        golden: Function::of(&KERNELS, "golden")?,
-    };
-    let mut walks = Vec::new();
-    for light in lights {
-        let scale = view.scale_at(stack.slab(stack.count / 2).0.max(view.near()));
-        let policy = tables.policy(light, stack.thickness, scale, spread)?;
-        walks.push(Walk { light, policy, waiting: 0, behind: [0.0; 2] });
+/// The steps through a stack of slabs, one after the other: there may be more than there is memory for.
+#[derive(Debug)]
+pub struct Steps<'l, T> {
+    tables: Tables,
+    walks: Vec<Walk<'l>>,
+    stack: &'l Stack,
+    spread: Spread,
+    view: &'l SlabView,
+    visited: std::vec::IntoIter<usize>,
+    last: Option<usize>,
+    kind: PhantomData<T>,
+}
+
+impl<'l, T: Real> Steps<'l, T> {
+    /// The steps of lights through a stack of slabs, of which some hold matter.
+    ///
+    /// # Errors
+    /// Never with the tables that come with Umbrage.
+    pub fn new(
+        lights: &'l [SlopeLight],
+        stack: &'l Stack,
+        occupied: &[bool],
+        spread: &Spread,
+        view: &'l SlabView,
+    ) -> Result<Self, Failure> {
+        let tables = Tables {
+            kernel_of_light: Function::of(&LIGHT_KERNEL, "kernel_of_light")?,
+            smear_of: Function::of(&POLICIES, "smear_of")?,
+            sharpened: Function::of(&POLICIES, "sharpened")?,
+            golden: Function::of(&KERNELS, "golden")?,
+            hash: Function::of(&NOISE, "hash")?,
+        };
+        let scale = view.scale_at(stack.depth(stack.count() / 2).max(view.near()));
+        let walk = |(number, light): (usize, &'l SlopeLight)| {
+            let policy = tables.policy(light, stack.thickness, scale, spread)?;
+            Ok(Walk { light, number, policy, waiting: 0, behind: [0.0; 2] })
+        };
+        let walks = lights.iter().enumerate().map(walk).collect::<Result<_, Failure>>()?;
+        let visited = visited(occupied, spread.skip).into_iter();
+        Ok(Self { tables, walks, stack, spread: *spread, view, visited, last: None, kind: PhantomData })
     }
-    let mut steps = Vec::new();
-    let mut last: Option<usize> = None;
-    for slab in visited(occupied, spread.skip) {
-        let gathers = match last {
+
+    fn step(&mut self, slab: usize) -> Result<Step<T>, Failure> {
+        let Self { tables, walks, stack, spread, view, .. } = self;
+        let gathers = match self.last {
             // Before the first slab light is the same everywhere.
             None => walks.iter().map(|_| Gather::Same(Stencil::nothing())).collect(),
             Some(last) => {
-                let (slabs, before) = (slab - last, stack.slab(last).0);
-                let gather = |walk: &mut Walk<'_>| walk.gather(&tables, slab, slabs, before, &stack, spread, view);
-                walks.iter_mut().map(gather).collect::<Result<_, _>>()?
+                let way = Way { slab, slabs: slab - last, before: stack.depth(last), stack, spread, view };
+                walks.iter_mut().map(|walk| walk.gather(tables, &way)).collect::<Result<_, _>>()?
             }
         };
-        steps.push(Step { slab, gathers });
-        last = Some(slab);
+        self.last = Some(slab);
+        Ok(Step { slab, gathers })
     }
-    Ok(steps)
+}
+
+impl<T: Real> Iterator for Steps<'_, T> {
+    type Item = Result<Step<T>, Failure>;
+
+    /// The next step; an error when a kernel is asked for a blur that it is not made for.
+    fn next(&mut self) -> Option<Self::Item> {
+        let slab = self.visited.next()?;
+        Some(self.step(slab))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.visited.size_hint()
+    }
+}
+
+impl<T: Real> ExactSizeIterator for Steps<'_, T> {}
+
+/// The way from one visited slab to the next.
+struct Way<'w> {
+    slab: usize,
+    /// The number of slabs that it leads through.
+    slabs: usize,
+    /// The depth at which it begins.
+    before: f64,
+    stack: &'w Stack,
+    spread: &'w Spread,
+    view: &'w SlabView,
 }
 
 /// The slabs that are visited: those with matter, and of a run between them some that divide it evenly.
@@ -126,64 +193,64 @@ impl Tables {
         blur.variances = [a11 * a11, a22 * a22];
         Ok(())
     }
+
+    /// The phase of a light's samples in a slab.
+    fn phase(&self, slab: usize, light: usize, spread: &Spread) -> Result<f64, Failure> {
+        match spread.phase {
+            Phase::Golden => self.golden.call(&[("slab", ((slab % (1 << 20)) as f64).into())])?.number("value"),
+            Phase::Steady | Phase::Pixel => Ok(0.0),
+            Phase::Random => {
+                let given = [("x", 0.0), ("y", light as f64), ("slab", slab as f64), ("seed", spread.seed.into())];
+                self.hash.call(&given.map(|(name, number)| (name, number.into())))?.number("unit")
+            }
+        }
+    }
 }
 
 impl Walk<'_> {
-    #[expect(clippy::too_many_arguments, reason = "a step is where everything comes together")]
-    fn gather<T: Real>(
-        &mut self,
-        tables: &Tables,
-        slab: usize,
-        slabs: usize,
-        before: f64,
-        stack: &Stack,
-        spread: &Spread,
-        view: &SlabView,
-    ) -> Result<Gather<T>, Failure> {
+    fn gather<T: Real>(&mut self, tables: &Tables, way: &Way<'_>) -> Result<Gather<T>, Failure> {
+        let Way { slab, slabs, before, stack, spread, view } = *way;
         let depth = slabs as f64 * stack.thickness;
         let scale = view.scale_at(before.max(view.near()));
-        let way = self.light.blur(tables.kernel_of_light, spread.d1, depth, scale)?;
+        let blur = self.light.blur(tables.kernel_of_light, spread.d1, depth, scale)?;
         self.waiting += slabs;
-        let wanted = [self.behind[0] + way.mean[0], self.behind[1] + way.mean[1]];
+        let wanted = [self.behind[0] + blur.mean[0], self.behind[1] + blur.mean[1]];
+        let whole = || wanted.map(|wanted| (wanted + 0.5).floor());
+        let lag = || [wanted[0] - whole()[0], wanted[1] - whole()[1]];
         let sharp = self.policy.smear == "snap" || self.policy.smear == "stride" && self.waiting < self.policy.every;
-        let samples = if sharp {
-            let at = wanted.map(|wanted| (wanted + 0.5).floor());
-            self.behind = [wanted[0] - at[0], wanted[1] - at[1]];
+        let beyond = match view.projection {
+            Projection::PerspectiveWorld => scale / view.scale_at(before + depth) - 1.0,
+            Projection::Orthographic | Projection::PerspectiveFollow => 0.0,
+        };
+        let gathered = |samples: Vec<Sample>| match beyond {
+            0.0 => Gather::Same(Stencil::new(&samples)),
+            _ => Gather::Magnified { samples, beyond },
+        };
+        if sharp {
+            self.behind = lag();
             if self.policy.smear == "snap" {
                 self.waiting = 0;
             }
-            vec![Sample { at, weight: 1.0 }]
-        } else {
-            let depth = self.waiting as f64 * stack.thickness;
-            let mut blur = self.light.blur(tables.kernel_of_light, spread.d1, depth, scale)?;
-            blur.mean = wanted;
-            if self.policy.smear != "none" && !spread.kernel.is_whole() {
-                tables.sharpen(&mut blur)?;
+            return Ok(gathered(vec![Sample { at: whole(), weight: 1.0 }]));
+        }
+        let mut blur =
+            self.light.blur(tables.kernel_of_light, spread.d1, self.waiting as f64 * stack.thickness, scale)?;
+        blur.mean = wanted;
+        if self.policy.smear != "none" && !spread.kernel.is_whole() {
+            tables.sharpen(&mut blur)?;
+        }
+        self.waiting = 0;
+        self.behind = if spread.kernel.is_whole() { lag() } else { [0.0; 2] };
+        if spread.phase == Phase::Pixel && spread.kernel.has_phase() {
+            if beyond != 0.0 {
+                let error =
+                    Diagnostic::error(codes::RENDER, "phases drawn for each pixel are for views without magnification");
+                return Err(Failure::bare("", error.help("choose `--set phase=random`, or another projection")));
             }
-            self.waiting = 0;
-            let phase = if spread.golden {
-                tables.golden.call(&[("slab", ((slab % (1 << 20)) as f64).into())])?.number("value")?
-            } else {
-                0.0
-            };
-            let samples = spread.kernel.samples(&blur, phase)?;
-            self.behind = if spread.kernel.is_whole() {
-                let at = wanted.map(|wanted| (wanted + 0.5).floor());
-                [wanted[0] - at[0], wanted[1] - at[1]]
-            } else {
-                [0.0; 2]
-            };
-            samples
-        };
-        let factor = match view.projection {
-            Projection::PerspectiveWorld => scale / view.scale_at(before + depth),
-            Projection::Orthographic | Projection::PerspectiveFollow => 1.0,
-        };
-        Ok(if factor == 1.0 {
-            Gather::Same(Stencil::new(&samples))
-        } else {
-            Gather::Magnified { samples, factor, middle: view.middle().to_array() }
-        })
+            let one = |phase: usize| Ok(Stencil::new(&spread.kernel.samples(&blur, phase as f64 / PHASES as f64)?));
+            return Ok(Gather::Dithered((0..PHASES).map(one).collect::<Result<_, Failure>>()?));
+        }
+        Ok(gathered(spread.kernel.samples(&blur, tables.phase(slab, self.number, spread)?)?))
     }
 }
 

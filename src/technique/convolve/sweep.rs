@@ -4,7 +4,8 @@
 
 use rayon::prelude::*;
 
-use super::stencil::{Border, Gather, Real};
+use super::stencil::{Around, Border, Gather, Real};
+use super::surface::{Surface, Surfaces};
 
 /// Matter of a slab at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Matter {
     pub through: [f64; 3],
     /// The light that it sends to the viewer where light of strength 1 arrives, by colour.
     pub colour: [f64; 3],
+    /// The surface that is seen in the slab, if any.
+    pub surface: Option<Surface>,
 }
 
 /// The contents of slabs. Pixels are asked for once a slab, slabs in order.
@@ -36,6 +39,13 @@ pub struct Step<T> {
     pub slab: usize,
     /// The gather of each light from the step before.
     pub gathers: Vec<Gather<T>>,
+}
+
+impl<T> Step<T> {
+    /// Returns whether its gathers ask for phases of pixels.
+    pub fn is_dithered(&self) -> bool {
+        self.gathers.iter().any(|gather| matches!(gather, Gather::Dithered(_)))
+    }
 }
 
 /// The light of all lights at the pixels of a slab: row by row, in a row light by light, of a light colour by colour.
@@ -86,6 +96,7 @@ pub struct Sweep<'m, S: Slabs, T> {
     rows: Vec<S::Row>,
     colours: Vec<[f64; 3]>,
     border: Border,
+    surfaces: Option<&'m Surfaces>,
     /// Light behind the last slab.
     pub light: LightImages<T>,
     next: LightImages<T>,
@@ -94,14 +105,21 @@ pub struct Sweep<'m, S: Slabs, T> {
 }
 
 impl<'m, S: Slabs, T: Real> Sweep<'m, S, T> {
-    /// A sweep before the first slab.
-    pub fn new(slabs: &'m S, size: (usize, usize), colours: Vec<[f64; 3]>, border: Border) -> Self {
+    /// A sweep before the first slab; without `surfaces` light is scattered alike everywhere.
+    pub fn new(
+        slabs: &'m S,
+        size: (usize, usize),
+        colours: Vec<[f64; 3]>,
+        border: Border,
+        surfaces: Option<&'m Surfaces>,
+    ) -> Self {
         let light = LightImages::new(size, &colours);
         let pixels = size.0 * size.1;
         Self {
             slabs,
             rows: (0..size.1).map(|y| slabs.row(y)).collect(),
             border,
+            surfaces,
             next: light.clone(),
             light,
             colours,
@@ -109,11 +127,11 @@ impl<'m, S: Slabs, T: Real> Sweep<'m, S, T> {
         }
     }
 
-    /// Goes on by a step.
-    pub fn step(&mut self, step: &Step<T>) {
+    /// Goes on by a step; `phases` are those of all pixels, where gathers ask for them.
+    pub fn step(&mut self, step: &Step<T>, phases: &[u8]) {
         let (width, height) = self.size();
-        let Self { slabs, rows, colours, border, light, next, seen } = self;
-        let (slabs, light, colours, border) = (*slabs, &*light, &*colours, *border);
+        let Self { slabs, rows, colours, border, surfaces, light, next, seen } = self;
+        let (slabs, light, colours, border, surfaces) = (*slabs, &*light, &*colours, *border, *surfaces);
         let row_len = light.row_len();
         // Without lights there is still matter to be seen.
         let outs: Vec<&mut [T]> = match row_len {
@@ -126,26 +144,39 @@ impl<'m, S: Slabs, T: Real> Sweep<'m, S, T> {
             for (light_index, gather) in step.gathers.iter().enumerate() {
                 for (channel, bright) in colours[light_index].iter().enumerate() {
                     let start = (3 * light_index + channel) * width;
-                    let unhindered = T::of(*bright);
-                    gather.gather(&mut out[start..start + width], y, height, border, unhindered, |y| {
-                        light.row(y, light_index, channel)
-                    });
+                    let around = Around { height, border, light: T::of(*bright) };
+                    let phases = phases.get(y * width..(y + 1) * width).unwrap_or_default();
+                    let row = |y| light.row(y, light_index, channel);
+                    gather.gather(&mut out[start..start + width], y, around, phases, row);
                 }
             }
             let mut matter = vec![None; width];
             slabs.matter(step.slab, y, row, &mut matter);
             for (x, matter) in matter.iter().enumerate() {
-                let Some(Matter { alpha, through, colour: own }) = matter else { continue };
+                let Some(Matter { alpha, through, colour: own, surface }) = matter else { continue };
                 let alpha = T::of(*alpha);
                 let open = (T::of(1.0) - opacity[x]) * alpha;
+                let changed = surface.as_ref().zip(surfaces).filter(|(surface, of)| of.changes(surface.object));
+                let lit = changed.map(|(surface, of)| (0..colours.len()).map(|light| of.lit(light, surface)));
+                let lit: Option<Vec<(f64, f64)>> = lit.map(Iterator::collect);
                 for channel in 0..3 {
                     let mut arrived = T::default();
-                    for light_index in 0..colours.len() {
+                    for (light_index, bright) in colours.iter().enumerate() {
                         let place = &mut out[(3 * light_index + channel) * width + x];
-                        arrived += *place;
+                        arrived += match &lit {
+                            None => *place,
+                            Some(lit) => {
+                                let (factor, reflected) = lit[light_index];
+                                let value = *place * T::of(factor);
+                                let most = T::of(bright[channel]);
+                                let value = if value.wide() > most.wide() { most } else { value };
+                                value * (T::of(own[channel]) + T::of(reflected))
+                            }
+                        };
                         *place = *place * T::of(through[channel]);
                     }
-                    colour[x][channel] += open * (arrived * T::of(own[channel]));
+                    let sent = if lit.is_some() { arrived } else { arrived * T::of(own[channel]) };
+                    colour[x][channel] += open * sent;
                 }
                 opacity[x] += open;
             }

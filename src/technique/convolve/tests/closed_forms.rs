@@ -5,9 +5,9 @@ use glam::DVec2;
 use super::super::functions::Function;
 use super::super::kernel::Kernel;
 use super::super::light::{SlopeLight, nodes};
-use super::super::matter::Stack;
+use super::super::stack::Stack;
 use super::super::stencil::Border;
-use super::super::steps::{Spread, steps};
+use super::super::steps::{Phase, Spread, Steps};
 use super::super::sweep::{Matter, Slabs, Sweep};
 use super::super::view::{Projection, SlabView};
 use crate::scene::Scene;
@@ -23,7 +23,7 @@ impl<F: Fn(usize, usize) -> bool + Sync> Slabs for Occluder<F> {
 
     fn matter(&self, slab: usize, y: usize, (): &mut (), out: &mut [Option<Matter>]) {
         for (x, out) in out.iter_mut().enumerate() {
-            let opaque = Matter { alpha: 1.0, through: [0.0; 3], colour: [1.0; 3] };
+            let opaque = Matter { alpha: 1.0, through: [0.0; 3], colour: [1.0; 3], surface: None };
             *out = (slab == 0 && (self.0)(x, y)).then_some(opaque);
         }
     }
@@ -67,7 +67,7 @@ impl Case {
         let (width, height) = self.size;
         let view = SlabView::new(&scene, (width as u32, height as u32), Projection::Orthographic);
         let unit = 1.0 / view.scale_at(0.0);
-        let stack = Stack { front: 0.0, thickness: unit, count: slabs };
+        let stack = Stack::new(0.0, 0.0, unit, slabs);
         let whole = SlopeLight {
             mean: DVec2::from_array(self.mean),
             deviations: [self.slope(); 2],
@@ -75,15 +75,21 @@ impl Case {
             colour: [1.0; 3],
         };
         let lights = whole.split(&nodes(self.split.0).expect("nodes"), self.split.1);
-        let spread =
-            Spread { kernel: self.kernel, golden: self.golden, smear: self.smear, d1: RIGHT as f64 * unit, skip: 0 };
-        let steps = steps::<f64>(&lights, stack, &vec![true; slabs], &spread, &view).expect("steps");
+        let spread = Spread {
+            kernel: self.kernel,
+            phase: if self.golden { Phase::Golden } else { Phase::Steady },
+            seed: 0,
+            smear: self.smear,
+            d1: RIGHT as f64 * unit,
+            skip: 0,
+        };
+        let steps = Steps::<f64>::new(&lights, &stack, &vec![true; slabs], &spread, &view).expect("steps");
         let matter = Occluder(opaque);
         let colours = lights.iter().map(|light| light.colour).collect();
-        let mut sweep = Sweep::<_, f64>::new(&matter, self.size, colours, Border::Unoccluded);
+        let mut sweep = Sweep::<_, f64>::new(&matter, self.size, colours, Border::Unoccluded, None);
         let mut all = Vec::new();
-        for step in &steps {
-            sweep.step(step);
+        for step in steps {
+            sweep.step(&step.expect("steps"), &[]);
             let mut sum = vec![0.0; width * height];
             for light in 0..lights.len() {
                 for y in 0..height {

@@ -14,7 +14,7 @@ impl<F: Fn(usize, usize, usize) -> bool + Sync> Slabs for Opaque<F> {
 
     fn matter(&self, slab: usize, y: usize, (): &mut (), out: &mut [Option<Matter>]) {
         for (x, out) in out.iter_mut().enumerate() {
-            let opaque = Matter { alpha: 1.0, through: [0.0; 3], colour: [1.0; 3] };
+            let opaque = Matter { alpha: 1.0, through: [0.0; 3], colour: [1.0; 3], surface: None };
             *out = (self.0)(slab, x, y).then_some(opaque);
         }
     }
@@ -30,11 +30,11 @@ fn light<T: Real>(
     opaque: impl Fn(usize, usize, usize) -> bool + Sync,
 ) -> Vec<Vec<f64>> {
     let matter = Opaque(opaque);
-    let mut sweep = Sweep::<_, T>::new(&matter, size, vec![[1.0; 3]], Border::Unoccluded);
+    let mut sweep = Sweep::<_, T>::new(&matter, size, vec![[1.0; 3]], Border::Unoccluded, None);
     let gather = Gather::Same(Stencil::new(samples));
     let mut all = Vec::new();
     for slab in 0..slabs {
-        sweep.step(&Step { slab, gathers: vec![gather.clone()] });
+        sweep.step(&Step { slab, gathers: vec![gather.clone()] }, &[]);
         all.push(sweep.light.row(size.1 / 2, 0, 0).iter().map(|value| value.wide()).collect());
     }
     all

@@ -2,4 +2,5 @@
 
 mod closed_forms;
 mod exact;
+mod limits;
 mod scenes;

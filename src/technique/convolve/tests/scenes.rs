@@ -10,9 +10,9 @@ use crate::technique::rendered::LIGHT;
 use crate::technique::setting::Value;
 use crate::technique::{Executor, Frame, Rendered, Settings, Technique};
 
-const LAMP: &str = "Gaussian(tilts: (0, 0), deviations: (0.3, 0.3))";
+pub(super) const LAMP: &str = "Gaussian(tilts: (0, 0), deviations: (0.3, 0.3))";
 
-fn scene(lights: &str, objects: &str) -> Scene {
+pub(super) fn scene(lights: &str, objects: &str) -> Scene {
     scene_from("(0, 9, 0)", lights, objects)
 }
 
@@ -24,16 +24,16 @@ fn scene_from(eye: &str, lights: &str, objects: &str) -> Scene {
     Scene::parse("scene", &Source::new("scene.ron", text), Path::new("")).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-fn tried(scene: &Scene, technique: &dyn Technique, settings: Settings) -> Result<Rendered, Failure> {
+pub(super) fn tried(scene: &Scene, technique: &dyn Technique, settings: Settings) -> Result<Rendered, Failure> {
     let frame = Frame::new(scene, (48, 40), &Executor::Cpu).with(settings);
     frame.prepare(technique)?.render(&|_| {})
 }
 
-fn rendered(scene: &Scene, settings: Settings) -> Rendered {
+pub(super) fn rendered(scene: &Scene, settings: Settings) -> Rendered {
     tried(scene, &CONVOLVE, settings).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
-fn slabs(count: u32) -> Settings {
+pub(super) fn slabs(count: u32) -> Settings {
     Settings::default().with(&set::SLABS, Value::Whole(count))
 }
 
