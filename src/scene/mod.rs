@@ -19,7 +19,7 @@ use std::path::Path;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::scene::light::{Light, Lights, Punctual};
-use crate::scene::matter::{Matter, Shine};
+use crate::scene::matter::{Detail, Matter, Shine};
 use crate::scene::view::Camera;
 use crate::text::closest::nearest;
 use crate::text::file;
@@ -58,6 +58,8 @@ pub struct Object {
     pub matter: Matter,
     /// Facets of its surface, for techniques that reflect light.
     pub shine: Option<Shine>,
+    /// A pattern inside of it, for techniques that look there.
+    pub detail: Option<Detail>,
     /// True of objects that the shadow map is fitted to.
     pub casts: bool,
     /// Its surface, seen from both sides.
@@ -74,9 +76,10 @@ impl Object {
 }
 
 /// The scenes that come with Umbrage, by name.
-const BUILT_IN: [(&str, &str); 22] = [
+const BUILT_IN: [(&str, &str); 23] = [
     ("abutting", include_str!("../../scenes/abutting.ron")),
     ("boxes", include_str!("../../scenes/boxes.ron")),
+    ("clouds", include_str!("../../scenes/clouds.ron")),
     ("columns", include_str!("../../scenes/columns.ron")),
     ("dining", include_str!("../../scenes/dining.ron")),
     ("disk", include_str!("../../scenes/disk.ron")),

@@ -22,6 +22,11 @@ struct Frame {
     // 1 if light on opaque slopes is put right, and the root of a slab's thickness over the right distance of penumbras.
     compensates: u32,
     drift: f32,
+    // Units of a pixel: at the base of depths, and more for a unit of depth.
+    pixel_at_base: f32,
+    pixel_growth: f32,
+    // 1 if matter with detail is integrated between its values in front and behind.
+    integrates: u32,
 }
 
 struct Record {
@@ -54,6 +59,16 @@ struct Material {
     exponent: f32,
     reflectance: f32,
     shown: u32,
+    // Detail: its pattern, octaves and numbers; the way to its space; the place of its knots in the lookups.
+    pattern: u32,
+    numbers: vec4<f32>,
+    origin: vec3<f32>,
+    octaves: u32,
+    right: vec3<f32>,
+    first_knot: u32,
+    down: vec3<f32>,
+    knots: u32,
+    away: vec3<f32>,
 }
 
 struct Cursor {
@@ -79,7 +94,8 @@ struct Cursor {
 @group(0) @binding(8) var<storage, read> materials: array<Material>;
 // Colour times opacity, and opacity.
 @group(0) @binding(9) var<storage, read_write> seen: array<vec4<f32>>;
-// Quotients of iterated and right light on slopes by drift, then `microfacet_g` of materials by cosine.
+// Quotients of iterated and right light on slopes by drift; of materials `microfacet_g` by cosine, and knots: value,
+// colour, opacity, transport, extinction.
 @group(0) @binding(10) var<storage, read> lookups: array<f32>;
 
 const LIGHT_ROWS = 3u;
@@ -93,6 +109,11 @@ const MAGNIFIED = 2u;
 
 const MAX_OFFSET = 1e9;
 
+const NO_PATTERN = 0u;
+const FBM = 1u;
+const RIDGED = 2u;
+const KNOT = 9u;
+
 // The places of the table `slab`.
 const NOWHERE = 0u;
 const JITTERED = 1u;
@@ -102,6 +123,7 @@ struct Matter {
     held: bool,
     alpha: f32,
     through: vec3<f32>,
+    colour: vec3<f32>,
     object: u32,
 }
 
@@ -155,17 +177,19 @@ fn gathered(light: u32, at: vec2<i32>) -> vec3<f32> {
     return stencil(light, at, gather);
 }
 
-// The length of the parts inside, and the object of the longest of them.
+// The length of the parts inside, and of the longest of them the object and the ends.
 struct Parts {
     path: f32,
     object: u32,
+    front: f32,
+    back: f32,
 }
 
 fn parts(cursor: Cursor, crossings: u32) -> Parts {
     var from_depth = record.front;
     var inside = cursor.inside != 0u;
     var medium = cursor.medium;
-    var result = Parts(0.0, cursor.medium);
+    var result = Parts(0.0, cursor.medium, record.front, record.front);
     var longest = 0.0;
     for (var i = 0u; i <= crossings; i++) {
         var depth = record.back;
@@ -181,6 +205,8 @@ fn parts(cursor: Cursor, crossings: u32) -> Parts {
             if (length > longest) {
                 longest = length;
                 result.object = medium;
+                result.front = from_depth;
+                result.back = depth;
             }
         }
         from_depth = depth;
@@ -239,26 +265,137 @@ fn reflected(light: u32, material: Material, normal: vec3<f32>) -> f32 {
                           max(shown_to_light, 0.001), max(shown_to_viewer, 0.001));
 }
 
-fn matter(cursor: Cursor, crossings: u32, sampled_at: u32) -> Matter {
-    var whole = true;
-    var within = Parts(record.thickness, cursor.medium);
-    if (sampled_at == NOWHERE) {
-        return Matter(false, 0.0, vec3<f32>(1.0), 0u);
+// The place of a depth at a pixel in the space of a pattern.
+fn place_of(material: Material, id: vec2<u32>, depth: f32) -> vec3<f32> {
+    let unit = frame.pixel_at_base + depth * frame.pixel_growth;
+    let at = (vec2<f32>(id) + 0.5 - 0.5 * vec2<f32>(frame.size)) * unit;
+    return material.origin + at.x * material.right + at.y * material.down + depth * material.away;
+}
+
+fn pattern_at(material: Material, place: vec3<f32>) -> f32 {
+    let numbers = material.numbers;
+    if (material.pattern == FBM) {
+        var next = NoiseFbmOctaveValue(place.x, place.y, place.z, 1.0, 0.0);
+        for (var i = 0u; i < material.octaves; i++) {
+            next = noise_fbm_octave(next.px, next.py, next.pz, numbers.x, numbers.y, next.height, next.total);
+        }
+        return next.total;
     }
+    if (material.pattern == RIDGED) {
+        var next = NoiseRidgedOctaveValue(place.x, place.y, place.z, 1.0, 1.0, 0.0);
+        for (var i = 0u; i < material.octaves; i++) {
+            next = noise_ridged_octave(next.px, next.py, next.pz, numbers.x, numbers.y, numbers.z, numbers.w,
+                                       next.height, next.weight, next.total);
+        }
+        return next.total;
+    }
+    return noise_brick(place.x, place.y, place.z, numbers.x, numbers.y, numbers.z, numbers.w);
+}
+
+// The matter that a value of a pattern stands for.
+struct Meant {
+    colour: vec3<f32>,
+    opacity: f32,
+    transport: vec3<f32>,
+    extinction: f32,
+}
+
+fn meant(material: Material, value: f32) -> Meant {
+    var next = 1u;
+    while (next + 1u < material.knots && lookups[material.first_knot + next * KNOT] <= value) {
+        next++;
+    }
+    let a = material.first_knot + (next - 1u) * KNOT;
+    let b = a + KNOT;
+    let width = lookups[b] - lookups[a];
+    var part = 1.0;
+    if (width > 0.0) {
+        part = clamp((value - lookups[a]) / width, 0.0, 1.0);
+    }
+    var mixed = array<f32, 9>();
+    for (var i = 1u; i < KNOT; i++) {
+        mixed[i] = lookups[a + i] + part * (lookups[b + i] - lookups[a + i]);
+    }
+    return Meant(vec3<f32>(mixed[1], mixed[2], mixed[3]), mixed[4], vec3<f32>(mixed[5], mixed[6], mixed[7]), mixed[8]);
+}
+
+// Opacity and colour of a way on which the pattern goes from one value to another.
+fn integrated(material: Material, ends: vec2<f32>, path: f32) -> vec4<f32> {
+    let lo = lookups[material.first_knot];
+    let hi = lookups[material.first_knot + (material.knots - 1u) * KNOT];
+    let s = clamp(ends, vec2<f32>(lo), vec2<f32>(hi));
+    let middle = meant(material, 0.5 * (s.x + s.y));
+    var result = vec4<f32>(0.0);
+    for (var channel = 0u; channel < 3u; channel++) {
+        var tau = 0.0;
+        var tau_c = 0.0;
+        for (var i = 0u; i + 1u < material.knots; i++) {
+            let a = material.first_knot + i * KNOT;
+            let b = a + KNOT;
+            let piece = shade_piece_of_ramp(s.x, s.y, lookups[a], lookups[b], lookups[a + 8u], lookups[b + 8u],
+                                            lookups[a + 1u + channel], lookups[b + 1u + channel]);
+            tau += piece.tau;
+            tau_c += piece.tau_c;
+        }
+        let found = shade_preintegrated(tau, tau_c, s.x, s.y, path, middle.extinction, middle.colour[channel], hi - lo);
+        result[channel] = found.colour;
+        result.w = found.alpha;
+    }
+    return result;
+}
+
+fn nothing() -> Matter {
+    return Matter(false, 0.0, vec3<f32>(1.0), vec3<f32>(0.0), 0u);
+}
+
+fn detailed(material: Material, id: vec2<u32>, within: Parts, is_jittered: bool) -> Matter {
+    if (frame.integrates != 0u) {
+        let ends = vec2<f32>(pattern_at(material, place_of(material, id, within.front)),
+                             pattern_at(material, place_of(material, id, within.back)));
+        let found = integrated(material, ends, within.path);
+        let transport = meant(material, 0.5 * (ends.x + ends.y)).transport;
+        let through = 1.0 - found.w * (1.0 - transport);
+        return Matter(found.w > 0.0, found.w, through, found.rgb, within.object);
+    }
+    var depth = within.front + 0.5 * (within.back - within.front);
+    if (is_jittered) {
+        depth = within.front + noise_hash(id.x, id.y, record.slab, frame.seed).unit * record.thickness;
+    }
+    let here = meant(material, pattern_at(material, place_of(material, id, depth)));
+    let alpha = shade_opacity(here.opacity, material.length, within.path);
+    let through = vec3<f32>(
+        shade_transmittance(here.opacity, here.transport.x, material.length, within.path),
+        shade_transmittance(here.opacity, here.transport.y, material.length, within.path),
+        shade_transmittance(here.opacity, here.transport.z, material.length, within.path),
+    );
+    return Matter(alpha > 0.0, alpha, through, here.colour, within.object);
+}
+
+fn matter(cursor: Cursor, crossings: u32, sampled_at: u32, id: vec2<u32>) -> Matter {
+    if (sampled_at == NOWHERE) {
+        return nothing();
+    }
+    var whole = true;
+    var within = Parts(record.thickness, cursor.medium, record.front, record.back);
     if (sampled_at != JITTERED && sampled_at != MIDDLE) {
         whole = slab_coverage_level(frame.coverage) == SLAB_COVERAGE_FULL;
         if (whole) {
-            within.object = entries[select(cursor.next, cursor.next + crossings - 1u, frame.last != 0u)].object;
+            let hit = entries[select(cursor.next, cursor.next + crossings - 1u, frame.last != 0u)];
+            let at = max(hit.depth, record.front);
+            within = Parts(record.thickness, hit.object, at, at);
         } else {
             within = parts(cursor, crossings);
         }
     }
-    let material = materials[within.object];
-    if (whole) {
-        return Matter(true, material.alpha, material.through, within.object);
-    }
     if (within.path <= 0.0) {
-        return Matter(false, 0.0, vec3<f32>(1.0), 0u);
+        return nothing();
+    }
+    let material = materials[within.object];
+    if (material.pattern != NO_PATTERN) {
+        return detailed(material, id, within, sampled_at == JITTERED);
+    }
+    if (whole) {
+        return Matter(true, material.alpha, material.through, material.colour, within.object);
     }
     let alpha = shade_opacity(material.opacity, material.length, within.path);
     let through = vec3<f32>(
@@ -266,7 +403,7 @@ fn matter(cursor: Cursor, crossings: u32, sampled_at: u32) -> Matter {
         shade_transmittance(material.opacity, material.transport.y, material.length, within.path),
         shade_transmittance(material.opacity, material.transport.z, material.length, within.path),
     );
-    return Matter(true, alpha, through, within.object);
+    return Matter(true, alpha, through, material.colour, within.object);
 }
 
 @compute @workgroup_size(8, 8)
@@ -299,7 +436,7 @@ fn sweep(@builtin(global_invocation_id) id: vec3<u32>) {
         crossings++;
     }
     let found = slab(cursor.inside != 0u, i32(crossings), frame.coverage);
-    let here = matter(cursor, crossings, found.sampled_at);
+    let here = matter(cursor, crossings, found.sampled_at, id.xy);
     let material = materials[here.object];
     let is_facetted = material.exponent > 0.0;
     let is_slope = frame.compensates != 0u && material.opacity >= 1.0;
@@ -316,7 +453,7 @@ fn sweep(@builtin(global_invocation_id) id: vec3<u32>) {
             if (is_slope) {
                 right = min(value * slope_quotient(light, normal), bitcast<vec3<f32>>(rows[LIGHT_ROWS * light].xyz));
             }
-            var sent = material.colour;
+            var sent = here.colour;
             if (is_facetted) {
                 sent += reflected(light, material, normal);
             }
@@ -333,7 +470,7 @@ fn sweep(@builtin(global_invocation_id) id: vec3<u32>) {
         let before = seen[pixel];
         let open = (1.0 - before.w) * here.alpha;
         if (!changes) {
-            arrived = arrived * material.colour;
+            arrived = arrived * here.colour;
         }
         seen[pixel] = vec4<f32>(before.rgb + open * arrived, before.w + open);
     }

@@ -46,7 +46,8 @@
 //! **Convolution shadows** are two compute shaders. `convolve_layers` makes layered depth images
 //! (`count`, `scan_blocks`, `scan_sums`, `add_sums`, `scatter`, `arrange`, `mark`) with the function
 //! `crossed` of `policies`; `convolve` sweeps light through slabs (`begin`, `sweep`) with the table
-//! `slab` and the functions `opacity`, `transmittance` and `specular` of `shade`, `hash` of `noise`.
+//! `slab` and the functions `opacity`, `transmittance`, `specular`, `piece_of_ramp` and `preintegrated` of
+//! `shade`, `hash`, `fbm_octave`, `ridged_octave` and `brick` of `noise`.
 
 /// The names of the skeletons.
 pub const NAMES: [&str; 11] = [

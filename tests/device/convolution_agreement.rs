@@ -86,7 +86,8 @@ fn parts_of_slabs_are_nearly_the_same() {
     let cloud = "(shape: Ball(radius: 1), matter: (opacity: 0.6, length: 0.5, transport: (0.5, 0.2, 0)), colour: (1, 0.9, 0.8), shine: (exponent: 20, reflectance: 0.3))";
     let clouds = scene(&format!("{cloud}, (shape: Block(size: (9, 0.2, 9)), at: (0, -2, 0))"), 9.0, 30.0, (0.3, 0.3));
     let scenes = SCENES.iter().map(|name| Scene::open(name).unwrap_or_else(|error| panic!("{error}")));
-    for scene in scenes.chain([clouds]) {
+    let bricks = Scene::open("clouds").unwrap_or_else(|error| panic!("{error}"));
+    for scene in scenes.chain([clouds, bricks]) {
         for settings in ["slabs=48 coverage=exact", "slabs=9 coverage=exact rule=winding", "slabs=48 slopes=compensate"]
         {
             let [expected, found] = [&Executor::Cpu, &on_adapter].map(|on| rendered(&scene, on, SIZE, settings));

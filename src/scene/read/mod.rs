@@ -4,6 +4,7 @@
 //! does not hide the mistakes in the others, and every number is checked where it
 //! stands.
 
+mod detail;
 mod lights;
 #[cfg(test)]
 mod tests;
@@ -70,6 +71,10 @@ struct ObjectRon<'a> {
     matter: Option<Raw<'a>>,
     #[serde(default)]
     shine: Option<Raw<'a>>,
+    #[serde(default)]
+    detail: Option<Raw<'a>>,
+    #[serde(default)]
+    transfer: Option<Raw<'a>>,
     #[serde(default)]
     copies: Option<Raw<'a>>,
 }
@@ -324,11 +329,12 @@ impl<'a> Read<'a> {
         let place = |index: u32| {
             DAffine3::from_scale_rotation_translation(DVec3::splat(scale), turn, at + step * f64::from(index))
         };
+        let detail = self.detail(raw, (ron.detail, ron.transfer), (colour, matter), place(0).inverse())?;
         let mut solid = Solid::default();
         for index in 0..count {
             solid.add(&shape, &place(index), scale);
         }
-        Ok(Object { colour, matter, shine, casts, triangles: solid.triangles, parts: solid.parts })
+        Ok(Object { colour, matter, shine, detail, casts, triangles: solid.triangles, parts: solid.parts })
     }
 
     /// The surface of a shape, and whether the shadow map is fitted to it.

@@ -94,3 +94,31 @@ fn a_technique_takes_the_kinds_it_knows_and_names_the_others() {
     insta::assert_snapshot!(error);
     assert_eq!(Lights::ANY.to_string(), "directional, spot, polygon and Gaussian lights");
 }
+
+#[test]
+fn wrong_patterns_are_refused_at_their_places() {
+    let light = "light: Directional(direction: (0, -1, 0)),";
+    let said = |fields: &str| parse(light, &format!("Ball(radius: 1), {fields}")).expect_err(fields);
+    let fbm = "detail: Fbm(size: 1)";
+    for (fields, expected) in [
+        ("detail: Fbm(size: 0)", "0 is out of range"),
+        ("detail: Fbm(size: 1, octaves: 13)", "13 is out of range"),
+        ("detail: Ridged(size: 1, lacunarity: 4.5)", "4.5 is out of range"),
+        ("detail: Brick(size: (1, 1, NaN), mortar: 0.1)", "NaN is out of range"),
+        ("transfer: [(value: 0, opacity: 0)]", "the object has no pattern whose values this could be for"),
+        (&format!("{fbm}, transfer: [(value: 0, opacity: 0)]"), "1 knots are no transfer function"),
+        (
+            &format!("{fbm}, transfer: [(value: 1, opacity: 0), (value: 0, opacity: 1)]"),
+            "a knot has a smaller value than the one before",
+        ),
+        (&format!("{fbm}, transfer: [(value: 1, opacity: 2), (value: 2, opacity: 1)]"), "2 is out of range"),
+        ("shine: (exponent: 0)", "0 is out of range"),
+    ] {
+        let said = said(fields);
+        assert!(said.contains(expected) && said.contains("scene.ron:"), "{fields}: {said}");
+    }
+    let scene = parse(light, "Ball(radius: 1), detail: Brick(size: (1, 2, 3), mortar: 0.1), shine: (exponent: 20)");
+    let object = &scene.expect("right").objects[0];
+    assert_eq!(object.detail.as_ref().map(|detail| detail.knots.len()), Some(2));
+    assert_eq!(object.shine.map(|shine| shine.reflectance), Some(0.04));
+}

@@ -41,7 +41,7 @@ static TABLES: [&BuiltIn; 7] = [
     &tables::NOISE,
 ];
 
-static SETTINGS: [Setting; 19] = [
+static SETTINGS: [Setting; 20] = [
     set::SLABS,
     set::DISTANCE,
     set::KERNEL,
@@ -58,13 +58,16 @@ static SETTINGS: [Setting; 19] = [
     set::SPLIT,
     set::RHO,
     set::FRAMES,
+    set::DETAIL,
     set::SLOPES,
     set::SKIP,
     set::PRECISION,
 ];
 
-static REFERENCE_SETTINGS: [Setting; 9] = [
+static REFERENCE_SETTINGS: [Setting; 11] = [
     set::SLABS,
+    set::DETAIL,
+    set::SEED,
     set::COVERAGE,
     set::HIT,
     set::RULE,

@@ -1,38 +1,17 @@
-//! The slabs of a scene: crossings of surfaces made matter by the table of cases, `tables/slab.ron`, and opacities by
-//! `tables/shade.ron`.
+//! The slabs of a scene: crossings of surfaces made matter by the table of cases, `tables/slab.ron`.
 
 use std::collections::HashMap;
 use std::sync::Mutex;
 
+use super::fine::{Fine, FineRow, Taken};
 use super::functions::Function;
 use super::inside::{Change, Changes};
+use super::material::{Material, Through, Ways, ways};
 use super::stack::Stack;
-use super::surface::{Facets, Surface};
+use super::surface::Surface;
 use super::sweep::{Matter, Slabs};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::scene::matter::{Matter as Contents, Shine};
-use crate::technique::tables::{SHADE, SLAB};
-
-/// An object's substance.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Material {
-    /// Its colour, linear.
-    pub colour: [f64; 3],
-    /// Its contents.
-    pub matter: Contents,
-    /// Facets of its surface.
-    pub shine: Option<Shine>,
-}
-
-impl Material {
-    /// The facets of its surface, if it has any.
-    ///
-    /// # Errors
-    /// Never with the tables that come with Umbrage.
-    pub(super) fn facets(&self) -> Result<Option<Facets>, Failure> {
-        self.shine.map(|shine| Facets::new(shine.exponent, shine.reflectance)).transpose()
-    }
-}
+use crate::technique::tables::SLAB;
 
 /// Policies of slabs: names of levels of `tables/policies.ron`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,40 +58,16 @@ pub struct SceneSlabs<'c> {
     cases: Vec<[Case; 2]>,
     slab: Function,
     ways: Ways,
+    fine: Option<Fine>,
     /// Opacity and transmittance by material and length of the way.
     known: Mutex<HashMap<(usize, u64), Through>>,
 }
 
-/// Opacity, and the share of light that goes on by colour.
-pub(super) type Through = (f64, [f64; 3]);
-
-/// The functions of `tables/shade.ron` that ways through matter have.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Ways {
-    opacity: Function,
-    transmittance: Function,
-}
-
-/// The functions of ways.
-///
-/// # Errors
-/// Never with the tables that come with Umbrage.
-pub(super) fn ways() -> Result<Ways, Failure> {
-    Ok(Ways { opacity: Function::of(&SHADE, "opacity")?, transmittance: Function::of(&SHADE, "transmittance")? })
-}
-
-impl Ways {
-    /// Opacity and transmittance of a way through a material.
-    pub(super) fn of(&self, material: &Material, path: f64) -> Through {
-        let Contents { opacity, length, transport } = material.matter;
-        let given = [("alpha_ref", opacity.into()), ("e_ref", length.into()), ("path", path.into())];
-        let alpha = self.opacity.call(&given).and_then(|answer| answer.number("value")).unwrap_or(0.0);
-        let goes_on = |transport: f64| {
-            let given = [given[0], given[1], given[2], ("transport", transport.into())];
-            self.transmittance.call(&given).and_then(|answer| answer.number("value")).unwrap_or(1.0)
-        };
-        (alpha, transport.map(goes_on))
-    }
+/// The pixels of a row between slabs.
+#[derive(Debug)]
+pub struct Row {
+    cursors: Vec<Cursor>,
+    fine: Option<Box<FineRow>>,
 }
 
 /// A pixel between slabs.
@@ -131,12 +86,13 @@ impl<'c> SceneSlabs<'c> {
     ///
     /// # Errors
     /// Never with the tables that come with Umbrage.
-    pub fn new(
+    pub(super) fn new(
         changes: &'c Changes,
         stack: &'c Stack,
         width: usize,
         policies: SlabPolicies,
         materials: Vec<Material>,
+        fine: Option<Fine>,
     ) -> Result<Self, Failure> {
         let slab = Function::cases(&SLAB)?;
         let both = |crossings: usize| -> Result<[Case; 2], Failure> {
@@ -152,6 +108,7 @@ impl<'c> SceneSlabs<'c> {
             cases: (0..KEPT).map(both).collect::<Result<_, Failure>>()?,
             slab,
             ways: ways()?,
+            fine,
             known: Mutex::default(),
         })
     }
@@ -183,7 +140,7 @@ impl<'c> SceneSlabs<'c> {
         if let Some(known) = self.known.lock().unwrap_or_else(std::sync::PoisonError::into_inner).get(&key) {
             return *known;
         }
-        let through = self.ways.of(&self.materials[object], path);
+        let through = self.ways.of(&self.materials[object].matter, path);
         let mut known = self.known.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         // Ways of exactly the same length are those of whole slabs and of flat faces: others need not be kept.
         if known.len() < 1 << 16 {
@@ -192,10 +149,10 @@ impl<'c> SceneSlabs<'c> {
         through
     }
 
-    /// The length of the parts inside, and the object of the longest of them.
-    fn parts(&self, cursor: &Cursor, changes: &[Change], (front, back): (f64, f64)) -> (f64, usize) {
+    /// The length of the parts inside, and of the longest of them the object and the ends.
+    fn parts(&self, cursor: &Cursor, changes: &[Change], (front, back): (f64, f64)) -> (f64, usize, [f64; 2]) {
         let (mut from, mut inside, mut medium) = (front, cursor.inside, cursor.medium);
-        let (mut sum, mut longest, mut of) = (0.0, 0.0, cursor.medium);
+        let (mut sum, mut longest, mut of, mut part) = (0.0, 0.0, cursor.medium, [front; 2]);
         let ends = changes
             .iter()
             .map(|change| (f64::from(change.at.depth).max(front), change.inside, change.at.object as usize));
@@ -204,30 +161,35 @@ impl<'c> SceneSlabs<'c> {
                 let length = depth - from;
                 sum += length;
                 if length > longest {
-                    (longest, of) = (length, medium);
+                    (longest, of, part) = (length, medium, [from, depth]);
                 }
             }
             (from, inside, medium) = (depth, inside_next, object);
         }
-        (sum, of)
+        (sum, of, part)
     }
 
-    fn sample(&self, cursor: &Cursor, changes: &[Change], case: Case, ends: (f64, f64)) -> Option<Matter> {
+    /// What is taken of a slab, if it is any.
+    fn taken(&self, cursor: &Cursor, changes: &[Change], case: Case, ends: (f64, f64)) -> Option<Taken> {
         let full = self.policies.coverage == "full";
         let hit = if self.policies.hit == "first" { changes.first() } else { changes.last() };
-        let (path, object) = match case.place {
+        let whole = self.stack.thickness;
+        let (path, object, part) = match case.place {
             Place::Nowhere => return None,
-            Place::Within => (self.stack.thickness, cursor.medium),
+            Place::Within => (whole, cursor.medium, [ends.0, ends.1]),
             Place::AtSurface | Place::InPart if full => {
                 // Where the ray comes out, the matter is that which it was in.
                 let object = hit.map_or(cursor.medium, |hit| hit.at.object as usize);
-                (self.stack.thickness, object)
+                let at = hit.map_or(ends.0, |hit| f64::from(hit.at.depth).max(ends.0));
+                (whole, object, [at; 2])
             }
             Place::AtSurface | Place::InPart => self.parts(cursor, changes, ends),
         };
-        let (alpha, through) = if path > 0.0 { self.through(object, path) } else { return None };
         let surface = hit.filter(|_| case.surface).map(|hit| Surface { normal: hit.at.normal, object });
-        Some(Matter { alpha, through, colour: self.materials[object].colour, surface })
+        let ends = part.map(|end| end as f32);
+        let jittered = full && case.place == Place::Within;
+        let at = ends[0] + 0.5 * (ends[1] - ends[0]);
+        (path > 0.0).then_some(Taken { object, path, ends, at, jittered, surface })
     }
 }
 
@@ -260,26 +222,45 @@ fn case(slab: Function, inside: bool, crossings: usize, coverage: &str) -> Resul
 }
 
 impl Slabs for SceneSlabs<'_> {
-    type Row = Vec<Cursor>;
+    type Row = Row;
 
-    fn row(&self, y: usize) -> Vec<Cursor> {
+    fn row(&self, y: usize) -> Row {
         let pixels = y * self.width..(y + 1) * self.width;
-        pixels.map(|pixel| Cursor { next: self.changes.first[pixel], inside: false, medium: 0 }).collect()
+        let cursor = |pixel: usize| Cursor { next: self.changes.first[pixel], inside: false, medium: 0 };
+        // The tables were asked before.
+        let fine = self.fine.as_ref().and_then(|fine| fine.row().ok()).map(Box::new);
+        Row { cursors: pixels.map(cursor).collect(), fine }
     }
 
-    fn matter(&self, slab: usize, y: usize, row: &mut Vec<Cursor>, out: &mut [Option<Matter>]) {
+    fn matter(&self, slab: usize, y: usize, row: &mut Row, out: &mut [Option<Matter>]) {
         let ends = self.stack.slab(slab);
-        for (x, (cursor, out)) in row.iter_mut().zip(out).enumerate() {
+        let mut detailed = Vec::new();
+        for (x, (cursor, out)) in row.cursors.iter_mut().zip(out.iter_mut()).enumerate() {
             let end = self.changes.first[y * self.width + x + 1];
             let ahead = &self.changes.all[cursor.next..end];
             let changes = &ahead[..ahead.iter().take_while(|change| f64::from(change.at.depth) < ends.1).count()];
             let case = self.case(cursor.inside, changes.len());
-            *out = self.sample(cursor, changes, case, ends);
+            *out = None;
+            match self.taken(cursor, changes, case, ends) {
+                Some(taken) if self.fine.as_ref().is_some_and(|fine| fine.has(taken.object)) => {
+                    detailed.push((x, taken));
+                }
+                Some(Taken { object, path, surface, .. }) => {
+                    let (alpha, through) = self.through(object, path);
+                    *out = Some(Matter { alpha, through, colour: self.materials[object].colour, surface });
+                }
+                None => {}
+            }
             cursor.next += changes.len();
             cursor.inside = case.inside_after;
             if let Some(last) = changes.last() {
                 cursor.medium = last.at.object as usize;
             }
+        }
+        if let (Some(fine), Some(row), false) = (&self.fine, &mut row.fine, detailed.is_empty()) {
+            // The tables were asked before, and answer to any numbers.
+            let filled = fine.fill(row, (slab, y), self.stack, &detailed, &self.materials, out);
+            debug_assert!(filled.is_ok(), "{filled:?}");
         }
     }
 }

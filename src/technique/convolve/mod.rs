@@ -16,8 +16,10 @@
 //! `ellipse`, `light_kernel`, `slab`, `policies`, `shade`. This module asks them; what it knows
 //! itself is how triangles become layers, and how images are gathered.
 
+pub mod detail;
 pub mod dither;
 mod entry;
+mod fine;
 pub mod flat;
 mod functions;
 #[cfg(feature = "gpu")]
@@ -26,6 +28,7 @@ pub mod inside;
 pub mod kernel;
 pub mod layers;
 pub mod light;
+pub mod material;
 pub mod matter;
 pub mod octahedron;
 pub mod picture;

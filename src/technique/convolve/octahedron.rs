@@ -41,8 +41,8 @@ mod tests {
                     if length > 0.0 {
                         let back = direction(packed(raw));
                         let apart = raw.iter().zip(back).map(|(a, b)| (a / length - b).abs()).fold(0.0, f32::max);
-                        // Half a step of each place, twice in z, on a direction no shorter than 1 over the root of 3.
-                        assert!(apart < 2.0 * 3.0_f32.sqrt() / MOST + 1e-6, "{raw:?} {back:?}");
+                        // Half a step of both places, twice in z, of a direction that is 1 over the root of 3 long.
+                        assert!(apart < 18.0_f32.sqrt() / MOST, "{raw:?} {back:?}");
                     }
                 }
             }

@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use super::dither::Dither;
+use super::fine::Fine;
 use super::inside::Changes;
 use super::layers::Layers;
 use super::light::{SlopeLight, nodes};
-use super::matter::{Material, SceneSlabs};
+use super::material::Material;
+use super::matter::SceneSlabs;
 use super::settings::Chosen;
 use super::stack::Stack;
 use super::stencil::Real;
@@ -15,7 +17,7 @@ use super::surface::{Slope, Surfaces};
 use super::sweep::{Seen, Sweep};
 use super::view::SlabView;
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::scene::Scene;
+use crate::scene::{Object, Scene};
 use crate::technique::Frame;
 
 /// The most memory for light images, in bytes: parts of split lights beyond it wait for the next sweep.
@@ -70,11 +72,13 @@ impl Crossed {
 
 /// The materials of a scene's objects.
 pub(super) fn materials(scene: &Scene) -> Vec<Material> {
-    scene
-        .objects
-        .iter()
-        .map(|object| Material { colour: object.colour, matter: object.matter, shine: object.shine })
-        .collect()
+    let material = |object: &Object| Material {
+        colour: object.colour,
+        matter: object.matter,
+        shine: object.shine,
+        detail: object.detail.clone(),
+    };
+    scene.objects.iter().map(material).collect()
 }
 
 /// The distance at which penumbras are right: as chosen, or half of the depth of all slabs.
@@ -163,7 +167,8 @@ fn swept<T: Real>(
 ) -> Result<Pixels, Failure> {
     let (width, height) = (crossed.view.size.0 as usize, crossed.view.size.1 as usize);
     let materials = materials(scene);
-    let slabs = SceneSlabs::new(&crossed.changes, stack, width, chosen.policies, materials.clone())?;
+    let fine = Fine::new(&materials, &crossed.view, crossed.base, chosen.spread.seed, chosen.integrates)?;
+    let slabs = SceneSlabs::new(&crossed.changes, stack, width, chosen.policies, materials.clone(), fine)?;
     let spread = Spread { d1: d1_for(chosen, stack), ..chosen.spread };
     let occupied = slabs.occupied();
     let of_one = 2 * 3 * width * height * size_of::<T>();

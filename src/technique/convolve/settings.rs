@@ -70,6 +70,12 @@ pub const SLOPES: Setting = word(
     "what is done about light on opaque slopes, which iterating makes too dark",
     &["none", "compensate"],
 );
+/// Matter with detail between two values.
+pub const DETAIL: Setting = word(
+    "detail",
+    "how patterns inside of slabs are taken: at a place, or from front to back",
+    &["sampled", "integrated"],
+);
 /// Frames that are accumulated.
 pub const FRAMES: Setting = whole(
     "frames",
@@ -83,9 +89,6 @@ pub const SKIP: Setting = whole("skip", "most steps through a run of empty slabs
 pub const PRECISION: Setting = word("precision", "the numbers that light is kept in", &["f32", "f64"]);
 /// The lights of the reference.
 pub const SHARP_LIGHTS: Setting = whole("sharp_lights", "sharp lights that stand for each light", 256, (3, 1 << 16));
-
-/// The settings that reference and technique share, as both see the same slabs.
-pub const OF_SLABS: [Setting; 8] = [SLABS, COVERAGE, HIT, RULE, ODD, BORDER, PROJECTION, PRECISION];
 
 /// Everything that the technique is told.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,6 +111,8 @@ pub struct Chosen {
     pub frames: u32,
     /// Set if light on opaque slopes is put right.
     pub compensates: bool,
+    /// Set if matter with detail is integrated from front to back of a slab.
+    pub integrates: bool,
     /// Set if light is kept in double precision.
     pub wide: bool,
 }
@@ -142,6 +147,7 @@ impl Chosen {
             },
             split: Split { lights, rho: if lights == 1 { 1.0 } else { settings.number(&RHO) } },
             frames: settings.whole(&FRAMES),
+            integrates: word(&DETAIL) == "integrated",
             compensates: word(&SLOPES) == "compensate",
             wide: word(&PRECISION) == "f64",
         }

@@ -22,8 +22,7 @@ impl Stack {
     /// The slabs from the nearest surface to the farthest one, which lies before the end of the last.
     pub fn holding(base: f64, (nearest, farthest): (f32, f32), count: usize) -> Self {
         let (front, back) = (f64::from(nearest), f64::from(farthest));
-        // A little more, so that what ends with a slab does not begin the next one.
-        let depth = (back - front).max(1e-6 * (base + front).abs().max(1.0)) * (1.0 + 1e-6);
+        let depth = (back - front).max(1e-6 * (base + front).abs().max(1.0));
         let mut stack = Self::new(base, front, depth / count as f64, count);
         if let Some(end) = stack.edges.last_mut() {
             *end = end.max(farthest.next_up());

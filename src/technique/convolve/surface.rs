@@ -6,7 +6,7 @@
 
 use super::functions::Function;
 use super::light::SlopeLight;
-use super::matter::Material;
+use super::material::Material;
 use super::octahedron::direction;
 use crate::diag::Failure;
 use crate::technique::tables::{LIGHT_KERNEL, SHADE};
@@ -113,6 +113,14 @@ fn interpolated(lookup: &[f32], place: f32) -> f32 {
 }
 
 impl Facets {
+    /// The facets of a material, if it has any.
+    ///
+    /// # Errors
+    /// Never with the tables that come with Umbrage.
+    pub fn of(material: &Material) -> Result<Option<Self>, Failure> {
+        material.shine.map(|shine| Self::new(shine.exponent, shine.reflectance)).transpose()
+    }
+
     /// Facets of an exponent from 1 to 1000.
     ///
     /// # Errors
@@ -152,7 +160,7 @@ impl Surfaces {
         Ok(Self {
             lamps: lights.iter().map(Lamp::new).collect(),
             slope,
-            facets: materials.iter().map(Material::facets).collect::<Result<_, Failure>>()?,
+            facets: materials.iter().map(Facets::of).collect::<Result<_, Failure>>()?,
             opaque: materials.iter().map(|material| material.matter.opacity >= 1.0).collect(),
             specular: Function::of(&SHADE, "specular")?,
         })

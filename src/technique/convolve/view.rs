@@ -51,6 +51,11 @@ impl SlabView {
         DVec3::new(direction.dot(self.right), direction.dot(self.down), direction.dot(self.forward))
     }
 
+    /// The eye, and the directions to the right, down and away.
+    pub fn frame(&self) -> [DVec3; 4] {
+        [self.eye, self.right, self.down, self.forward]
+    }
+
     /// A place to the right, below and away from the eye.
     pub fn seen(&self, place: DVec3) -> DVec3 {
         self.turned(place - self.eye)

@@ -6,6 +6,7 @@
 //! every device takes in its own way.
 
 mod layers;
+mod rows;
 mod sweep;
 
 use std::time::Duration;

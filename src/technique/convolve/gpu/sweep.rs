@@ -3,10 +3,11 @@
 use std::time::Duration;
 
 use encase::ShaderType;
-use glam::{UVec2, Vec3};
+use glam::UVec2;
 
 use super::layers::Lists;
 use super::room;
+use super::rows::{FrameRow, MaterialRow, RecordRow, Rows};
 use crate::diag::Failure;
 use crate::emit::{self, wgsl_text};
 use crate::gpu::pass::{Bound, Compute, Module, Resources, Work};
@@ -14,15 +15,16 @@ use crate::gpu::timing::Stopwatch;
 use crate::gpu::{Buffer, Gpu, laid_out};
 use crate::plan::{Plan, Shape};
 use crate::skeleton;
+use crate::technique::convolve::detail::PixelSize;
+use crate::technique::convolve::fine::Placed;
 use crate::technique::convolve::light::SlopeLight;
-use crate::technique::convolve::matter::{Material, Through, ways};
+use crate::technique::convolve::material::{Material, ways};
 use crate::technique::convolve::picture::d1_for;
 use crate::technique::convolve::settings::Chosen;
 use crate::technique::convolve::stack::Stack;
-use crate::technique::convolve::stencil::{Border, Gather, Stencil};
+use crate::technique::convolve::stencil::Border;
 use crate::technique::convolve::steps::{Spread, Steps};
-use crate::technique::convolve::surface::{DRIFTS, Facets, Lamp, Slope};
-use crate::technique::convolve::sweep::Step;
+use crate::technique::convolve::surface::{DRIFTS, Facets, Slope};
 use crate::technique::tables::{NOISE, SHADE, SLAB};
 
 /// Bytes of a pixel in the image of a light.
@@ -71,7 +73,12 @@ fn text() -> Result<String, Failure> {
         SHADE.function("opacity")?,
         SHADE.function("transmittance")?,
         SHADE.function("specular")?,
+        SHADE.function("piece_of_ramp")?,
+        SHADE.function("preintegrated")?,
         NOISE.function("hash")?,
+        NOISE.function("fbm_octave")?,
+        NOISE.function("ridged_octave")?,
+        NOISE.function("brick")?,
     ];
     let module = |program| Ok(emit::wgsl(&Plan::proved(program, Shape::Ladder)?) + "\n");
     Ok(programs.into_iter().map(module).collect::<Result<String, Failure>>()? + skeleton::CONVOLVE)
@@ -116,6 +123,7 @@ impl SweepPasses {
     ) -> Result<Swept, Failure> {
         let (width, height) = lists.view.size;
         let pixels = u64::from(width) * u64::from(height);
+        let pixel = PixelSize::new(&lists.view, lists.base);
         let frame = FrameRow {
             size: UVec2::new(width, height),
             lights: lights as u32,
@@ -126,6 +134,9 @@ impl SweepPasses {
             seed: chosen.spread.seed,
             compensates: chosen.compensates.into(),
             drift: (stack.thickness / d1_for(chosen, stack)).sqrt() as f32,
+            pixel_at_base: pixel.at_base,
+            pixel_growth: pixel.growth,
+            integrates: chosen.integrates.into(),
         };
         let mut lookups = vec![1.0; DRIFTS];
         if chosen.compensates {
@@ -134,9 +145,19 @@ impl SweepPasses {
         let ways = ways()?;
         let mut rows = Vec::new();
         for material in materials {
-            let facets = material.facets()?;
-            rows.push(MaterialRow::new(material, ways.of(material, stack.thickness), facets.as_ref(), lookups.len()));
-            lookups.extend(facets.map_or_else(Vec::new, |facets| facets.shown));
+            let facets = Facets::of(material)?;
+            let mut row = MaterialRow::new(material, ways.of(&material.matter, stack.thickness));
+            if let Some(facets) = facets {
+                row.exponent = facets.exponent as f32;
+                row.reflectance = facets.reflectance as f32;
+                row.shown = lookups.len() as u32;
+                lookups.extend(facets.shown);
+            }
+            if let Some(placed) = Placed::new(material, &lists.view, lists.base) {
+                row.set_detail(&placed, lookups.len());
+                lookups.extend(placed.knots.iter().flatten());
+            }
+            rows.push(row);
         }
         let image = || gpu.results("images", PIXEL * pixels * lights.max(1) as u64);
         Ok(Swept {
@@ -257,139 +278,5 @@ impl SweepPasses {
     pub(super) fn seen(&self, gpu: &Gpu, swept: &Swept) -> Result<Vec<[f32; 4]>, Failure> {
         let pixels = u64::from(swept.size[0]) * u64::from(swept.size[1]);
         gpu.read_buffer(&swept.seen, PIXEL * pixels, bytemuck::pod_collect_to_vec::<u8, [f32; 4]>)
-    }
-}
-
-/// The kinds of gathers of the skeleton.
-const SAME: u32 = 0;
-const DITHERED: u32 = 1;
-const MAGNIFIED: u32 = 2;
-
-/// The `rows` of the skeleton: colours of lights, gathers, samples.
-struct Rows {
-    words: Vec<[u32; 4]>,
-    /// The gather of each light before, which the next one often is again, with its row.
-    known: Vec<Option<(Gather<f32>, [u32; 4])>>,
-}
-
-impl Rows {
-    fn new(lights: &[SlopeLight]) -> Self {
-        let of_light = |light: &SlopeLight| {
-            let [r, g, b] = light.colour.map(|channel| channel as f32);
-            let Lamp { mean: [x, y], covariance: [xx, xy, yy] } = Lamp::new(light);
-            [[r, g, b, 1.0], [x, y, xx, xy], [yy, 0.0, 0.0, 0.0]].map(|row| row.map(f32::to_bits))
-        };
-        let mut words: Vec<[u32; 4]> = lights.iter().flat_map(of_light).collect();
-        if words.is_empty() {
-            // An array must have an element.
-            words.push([0; 4]);
-        }
-        Self { words, known: lights.iter().map(|_| None).collect() }
-    }
-
-    /// A step, after rows for its gathers.
-    fn record(&mut self, step: &Step<f32>, stack: &Stack) -> RecordRow {
-        let gathers: Vec<[u32; 4]> =
-            step.gathers.iter().enumerate().map(|(light, gather)| self.gather(light, gather)).collect();
-        let first = self.words.len() as u32;
-        self.words.extend(gathers);
-        let (front, back) = stack.slab(step.slab);
-        RecordRow {
-            front: front as f32,
-            back: back as f32,
-            thickness: stack.thickness as f32,
-            slab: step.slab as u32,
-            gathers: first,
-        }
-    }
-
-    fn gather(&mut self, light: usize, gather: &Gather<f32>) -> [u32; 4] {
-        if let Some((known, row)) = &self.known[light]
-            && known == gather
-        {
-            return *row;
-        }
-        let row = match gather {
-            Gather::Same(stencil) => self.stencil(stencil),
-            Gather::Dithered(stencils) => {
-                let all: Vec<[u32; 4]> = stencils.iter().map(|stencil| self.stencil(stencil)).collect();
-                let first = self.words.len() as u32;
-                let count = all.len() as u32;
-                self.words.extend(all);
-                [first, count, DITHERED, 0]
-            }
-            Gather::Magnified { samples, beyond } => {
-                let first = self.words.len() as u32;
-                let bits = |number: f64| (number as f32).to_bits();
-                self.words.extend(
-                    samples.iter().map(|sample| [bits(sample.at[0]), bits(sample.at[1]), bits(sample.weight), 0]),
-                );
-                [first, samples.len() as u32, MAGNIFIED, bits(*beyond)]
-            }
-        };
-        self.known[light] = Some((gather.clone(), row));
-        row
-    }
-
-    fn stencil(&mut self, stencil: &Stencil<f32>) -> [u32; 4] {
-        let first = self.words.len() as u32;
-        let word = |offset: i64| offset as i32 as u32;
-        self.words.extend(stencil.taps().iter().map(|(dy, dx, weight)| [word(*dx), word(*dy), weight.to_bits(), 0]));
-        [first, stencil.len() as u32, SAME, 0]
-    }
-}
-
-/// A `Frame` of the skeleton.
-#[derive(ShaderType)]
-struct FrameRow {
-    size: UVec2,
-    lights: u32,
-    clamps: u32,
-    coverage: f32,
-    last: u32,
-    fresh: u32,
-    seed: u32,
-    compensates: u32,
-    drift: f32,
-}
-
-/// A `Record` of the skeleton.
-#[derive(ShaderType)]
-struct RecordRow {
-    front: f32,
-    back: f32,
-    thickness: f32,
-    slab: u32,
-    gathers: u32,
-}
-
-/// A `Material` of the skeleton.
-#[derive(ShaderType)]
-struct MaterialRow {
-    colour: Vec3,
-    alpha: f32,
-    through: Vec3,
-    opacity: f32,
-    transport: Vec3,
-    length: f32,
-    exponent: f32,
-    reflectance: f32,
-    shown: u32,
-}
-
-impl MaterialRow {
-    fn new(material: &Material, (alpha, through): Through, facets: Option<&Facets>, shown: usize) -> Self {
-        let narrow = |numbers: [f64; 3]| Vec3::from_array(numbers.map(|number| number as f32));
-        Self {
-            colour: narrow(material.colour),
-            alpha: alpha as f32,
-            through: narrow(through),
-            opacity: material.matter.opacity as f32,
-            transport: narrow(material.matter.transport),
-            length: material.matter.length as f32,
-            exponent: facets.map_or(0.0, |facets| facets.exponent) as f32,
-            reflectance: facets.map_or(0.0, |facets| facets.reflectance) as f32,
-            shown: if facets.is_some() { shown as u32 } else { 0 },
-        }
     }
 }

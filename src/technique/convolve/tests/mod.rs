@@ -3,4 +3,5 @@
 mod closed_forms;
 mod exact;
 mod limits;
+mod rays;
 mod scenes;

@@ -138,7 +138,7 @@ fn a_line_of_light_blurs_along_itself() {
     }
 }
 
-/// Far beyond the distance at which penumbras are right, parts of a light are nearer to the truth than the whole.
+/// At three times the distance at which penumbras are right, parts of a light are nearer to the truth than the whole.
 #[test]
 fn the_reference_is_what_splitting_leads_to() {
     let scene = scene(LAMP, "(shape: Block(size: (9, 0.2, 9))), (shape: Block(size: (1, 0.1, 1)), at: (0, 1.5, 0))");
@@ -146,12 +146,12 @@ fn the_reference_is_what_splitting_leads_to() {
     let truth = truth.colours(LIGHT).expect("a layer");
     let error = |split: u32, rho: f64| {
         let settings = slabs(64).with(&set::SPLIT, Value::Whole(split)).with(&set::RHO, Value::Number(rho));
-        let picture = rendered(&scene, settings.with(&set::DISTANCE, Value::Number(0.25)));
+        let picture = rendered(&scene, settings.with(&set::DISTANCE, Value::Number(0.4)));
         let pixels = picture.colours(LIGHT).expect("a layer").iter().zip(truth);
         (pixels.map(|(a, b)| f64::from(a[0] - b[0]).powi(2)).sum::<f64>() / truth.len() as f64).sqrt()
     };
     let (one, many) = (error(1, 1.0), error(16, 0.15));
-    assert!(many < 0.5 * one && one > 0.02, "{one} {many}");
+    assert!(many < 0.5 * one && one > 0.01, "{one} {many}");
 }
 
 #[test]
@@ -166,4 +166,39 @@ fn what_cannot_be_is_refused() {
     assert!(open.contains("a surface is entered and never left"), "{open}");
     let two = said(LAMP, ball, slabs(4).with(&set::SPLIT, Value::Whole(2)));
     assert!(two.contains("cannot be split into two"), "{two}");
+}
+
+/// Bricks and noise inside of closed surfaces: in pictures of many slabs sampled and integrated matter are alike, in
+/// pictures of few integrated matter is nearer to that.
+#[test]
+fn details_are_sampled_or_integrated() {
+    let ball = "(shape: Ball(radius: 1.2), matter: (opacity: 0.5, length: 0.3), detail: Fbm(size: 1, octaves: 1), \
+                transfer: [(value: -0.3, opacity: 0), (value: 0.3, opacity: 0.9, colour: (1, 0.5, 0.2))])";
+    let scene = scene(LAMP, ball);
+    let exact = |count| slabs(count).with(&set::COVERAGE, Value::Word("exact"));
+    let opacity = |settings: Settings| rendered(&scene, settings).numbers(OPACITY).expect("a layer").to_vec();
+    let integrated = |count| exact(count).with(&set::DETAIL, Value::Word("integrated"));
+    let rms = |a: &[f32], b: &[f32]| {
+        (a.iter().zip(b).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
+    };
+    let fine = opacity(integrated(96));
+    assert!(rms(&opacity(exact(96)), &fine) < 0.002);
+    let [sampled, integrated] = [exact(6), integrated(6)].map(|settings| rms(&opacity(settings), &fine));
+    assert!(integrated < 0.5 * sampled && sampled > 0.005, "{integrated} {sampled}");
+}
+
+/// Facets reflect most where the normal is halfway between light and viewer, and nothing from behind.
+#[test]
+fn facets_shine() {
+    let lamp = "Gaussian(tilts: (-40, 0), deviations: (0.01, 0.01), colour: (1, 1, 1))";
+    let ball = |shine: &str| format!("(shape: Ball(radius: 1.2), colour: (0.1, 0.1, 0.1){shine})");
+    let light = |shine: &str| rendered(&scene(lamp, &ball(shine)), slabs(40)).colours(LIGHT).expect("a layer").to_vec();
+    let (plain, shiny) = (light(""), light(", shine: (exponent: 50, reflectance: 0.5)"));
+    let brightest = (0..plain.len()).max_by(|a, b| shiny[*a][0].total_cmp(&shiny[*b][0])).expect("pixels");
+    assert!(plain.iter().zip(&shiny).all(|(plain, shiny)| shiny[0] >= plain[0]));
+    // The normal is tilted by 20 degrees there, and a unit is 8.3 pixels.
+    let (x, y) = ((brightest % 48) as f64 + 0.5 - 24.0, (brightest / 48) as f64 + 0.5 - 20.0);
+    let expected = 1.2 * 20.0_f64.to_radians().sin() * 20.0 / (15.0_f64.to_radians().tan() * 9.0);
+    assert!((x.hypot(y) - expected).abs() < 1.5 && y.abs() < 1.5, "{x} {y} {expected}");
+    assert!(shiny[brightest][0] > 1.0, "{}", shiny[brightest][0]);
 }
