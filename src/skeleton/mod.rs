@@ -71,7 +71,7 @@ pub fn wgsl(name: &str) -> Option<String> {
         "peel" => Some(AREA.to_owned()),
         "discontinuity" => Some(SEARCH.to_owned()),
         "convolve_layers" => Some(CONVOLVE_LAYERS.to_owned()),
-        "convolve" => Some(CONVOLVE.to_owned()),
+        "convolve" => Some(convolve(true)),
         _ => Revectorised::EXACT.wgsl(name),
     }
 }
@@ -88,8 +88,11 @@ pub(crate) const SEARCH: &str = include_str!("search.wgsl");
 /// Surfaces at pixels, counted, listed and sorted.
 pub(crate) const CONVOLVE_LAYERS: &str = include_str!("convolve_layers.wgsl");
 
-/// Light through slabs.
-pub(crate) const CONVOLVE: &str = include_str!("convolve.wgsl");
+/// Light through slabs, with patterns inside of objects or without.
+pub(crate) fn convolve(detailed: bool) -> String {
+    let matter = if detailed { include_str!("convolve_detail.wgsl") } else { include_str!("convolve_plain.wgsl") };
+    [include_str!("convolve.wgsl"), "\n", matter].concat()
+}
 
 /// The reads of a shadow map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

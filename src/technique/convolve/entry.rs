@@ -129,7 +129,7 @@ impl Technique for Entry {
     fn prepare<'s>(&self, frame: &Frame<'s>) -> Result<Box<dyn Prepared<'s> + 's>, Failure> {
         let machine = match frame.on {
             #[cfg(feature = "gpu")]
-            Executor::Gpu(gpu) if !self.is_reference => Machine::Gpu(Box::new(Device::new(gpu)?)),
+            Executor::Gpu(gpu) if !self.is_reference => Machine::Gpu(Box::new(Device::new(gpu, frame.scene)?)),
             _ => Machine::Cpu,
         };
         let slabs = Slabs { is_reference: self.is_reference, machine, frame: frame.clone() };
@@ -198,6 +198,12 @@ impl<'s> Prepared<'s> for Slabs<'s> {
 
     fn set_frame(&mut self, frame: &Frame<'s>) -> Result<(), Failure> {
         self.frame = frame.clone();
+        #[cfg(feature = "gpu")]
+        if let (Machine::Gpu(device), Executor::Gpu(gpu)) = (&self.machine, frame.on)
+            && !device.fits(frame.scene)
+        {
+            self.machine = Machine::Gpu(Box::new(Device::new(gpu, frame.scene)?));
+        }
         self.chosen().map(drop)
     }
 

@@ -68,6 +68,15 @@ pub struct Fragment {
     pub normal: u32,
 }
 
+/// The triangle that a polygon is a part of.
+#[derive(Debug, Clone, Copy)]
+struct Of {
+    triangle: u32,
+    object: u32,
+    /// Set if its corners go anticlockwise seen from where its normals look.
+    outward: bool,
+}
+
 /// A corner of a polygon before the viewer.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
@@ -91,13 +100,16 @@ impl Flats {
             let corner =
                 |i: usize| Seen { place: view.seen(triangle.corners[i]), normal: view.turned(triangle.normals[i]) };
             let polygon = cut_at(&[0, 1, 2].map(corner), view.near());
-            (!polygon.is_empty()).then_some((index, object, polygon))
+            // A triangle faces where its normals look, whatever the order of its corners.
+            let [a, b, c] = triangle.corners;
+            let outward = (b - a).cross(c - a).dot(triangle.normals.iter().sum()) >= 0.0;
+            (!polygon.is_empty()).then_some((Of { triangle: index as u32, object: object as u32, outward }, polygon))
         };
-        let polygons: Vec<(usize, usize, Vec<Seen>)> = scene.triangles().enumerate().filter_map(seen).collect();
-        let depths = polygons.iter().flat_map(|(.., polygon)| polygon).map(|corner| corner.place.z);
+        let polygons: Vec<(Of, Vec<Seen>)> = scene.triangles().enumerate().filter_map(seen).collect();
+        let depths = polygons.iter().flat_map(|(_, polygon)| polygon).map(|corner| corner.place.z);
         let base = depths.fold(f64::INFINITY, f64::min);
         let mut all = Vec::new();
-        for (index, object, polygon) in polygons {
+        for (of, polygon) in polygons {
             let corner = |Seen { place, normal }: Seen| {
                 let inverse = if view.is_parallel() { 1.0 } else { 1.0 / place.z };
                 Corner { at: view.pixel(place), depth: (place.z - base) * inverse, inverse, normal }
@@ -105,22 +117,20 @@ impl Flats {
             let polygon = within(polygon.into_iter().map(corner).collect());
             let Some((head, rest)) = polygon.split_first() else { continue };
             let pairs = rest.windows(2);
-            all.extend(
-                pairs.filter_map(|pair| Flat::new([*head, pair[0], pair[1]], index as u32, object as u32, view.size)),
-            );
+            all.extend(pairs.filter_map(|pair| Flat::new([*head, pair[0], pair[1]], of, view.size)));
         }
         Self { all, base: if base.is_finite() { base } else { 0.0 }, parallel: view.is_parallel() }
     }
 }
 
 impl Flat {
-    fn new(corners: [Corner; 3], triangle: u32, object: u32, size: (u32, u32)) -> Option<Self> {
+    fn new(corners: [Corner; 3], of: Of, size: (u32, u32)) -> Option<Self> {
         let fixed = |at: DVec2| (at * f64::from(UNITS)).round().to_array().map(|at| at as i32);
         let mut corners = corners.map(|corner| (fixed(corner.at), corner));
         let doubled = side(corners[0].0, corners[1].0, corners[2].0);
-        // Corners go anticlockwise seen from outside, and y points down.
-        let front = doubled < 0;
-        if front {
+        // Outside is where corners go anticlockwise, and y points down.
+        let front = (doubled < 0) == of.outward;
+        if doubled < 0 {
             corners.swap(1, 2);
         }
         let at = corners.map(|(at, ..)| at);
@@ -150,8 +160,8 @@ impl Flat {
             inverses: corners.map(|(_, corner)| corner.inverse as f32),
             normals: corners.map(|(_, corner)| packed(corner.normal.as_vec3().to_array())),
             front,
-            triangle,
-            object,
+            triangle: of.triangle,
+            object: of.object,
             first: [column, row],
             extent: [columns, rows],
             shift,
@@ -256,6 +266,8 @@ fn within(mut polygon: Vec<Corner>) -> Vec<Corner> {
 mod tests {
     use super::*;
 
+    const OF: Of = Of { triangle: 0, object: 0, outward: true };
+
     fn corner(x: f64, y: f64, depth: f64) -> Corner {
         Corner { at: DVec2::new(x, y), depth, inverse: 1.0, normal: DVec3::Z }
     }
@@ -273,7 +285,7 @@ mod tests {
                 [middle, corner(*x, *y, 1.0), corner(next.0, next.1, 1.0)],
                 [middle, corner(next.0, next.1, 1.0), corner(*x, *y, 1.0)],
             ] {
-                let Some(flat) = Flat::new(corners, 0, 0, (8, 8)) else { continue };
+                let Some(flat) = Flat::new(corners, OF, (8, 8)) else { continue };
                 flat.fragments(true, |Fragment { pixel: [x, y], .. }| {
                     counts[(y * 8 + x) as usize] += if flat.front { 1 } else { 100 }
                 });
@@ -285,7 +297,7 @@ mod tests {
 
     #[test]
     fn depths_are_linear_and_far_corners_are_cut() {
-        let flat = Flat::new([corner(0.0, 0.0, 1.0), corner(64.0, 0.0, 3.0), corner(0.0, 64.0, 2.0)], 0, 0, (8, 8));
+        let flat = Flat::new([corner(0.0, 0.0, 1.0), corner(64.0, 0.0, 3.0), corner(0.0, 64.0, 2.0)], OF, (8, 8));
         flat.expect("covers").fragments(true, |Fragment { pixel: [x, y], depth, .. }| {
             let expected = 1.0 + (x as f32 + 0.5) / 32.0 + (y as f32 + 0.5) / 64.0;
             assert!((depth - expected).abs() < 1e-6, "{depth} {expected}");

@@ -18,6 +18,7 @@ use super::steps::Spread;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::gpu::Gpu;
 use crate::gpu::timing::Stopwatch;
+use crate::scene::Scene;
 use crate::technique::Frame;
 use layers::{LayerPasses, Lists};
 use sweep::{Chunk, SweepPasses, Swept};
@@ -28,6 +29,8 @@ pub(super) struct Device<'g> {
     gpu: &'g Gpu,
     layers: LayerPasses,
     sweep: SweepPasses,
+    /// Set if its shaders know patterns.
+    detailed: bool,
 }
 
 /// A frame that is ready to be swept again and again.
@@ -38,12 +41,18 @@ pub(super) struct Ready {
 }
 
 impl<'g> Device<'g> {
-    /// Compiles the shaders.
+    /// Compiles the shaders that a scene needs.
     ///
     /// # Errors
     /// When the device refuses one.
-    pub(super) fn new(gpu: &'g Gpu) -> Result<Self, Failure> {
-        Ok(Self { gpu, layers: LayerPasses::new(gpu)?, sweep: SweepPasses::new(gpu)? })
+    pub(super) fn new(gpu: &'g Gpu, scene: &Scene) -> Result<Self, Failure> {
+        let detailed = has_detail(scene);
+        Ok(Self { gpu, layers: LayerPasses::new(gpu)?, sweep: SweepPasses::new(gpu, detailed)?, detailed })
+    }
+
+    /// Returns whether the shaders are those that a scene needs.
+    pub(super) fn fits(&self, scene: &Scene) -> bool {
+        self.detailed == has_detail(scene)
     }
 
     /// Renders a frame.
@@ -132,6 +141,11 @@ impl<'g> Device<'g> {
         }
         Ok(())
     }
+}
+
+/// Returns whether an object of a scene has a pattern.
+fn has_detail(scene: &Scene) -> bool {
+    scene.objects.iter().any(|object| object.detail.is_some())
 }
 
 /// Refuses what is more than a buffer of the device holds.

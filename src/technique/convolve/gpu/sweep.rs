@@ -67,31 +67,35 @@ pub(super) struct Chunk {
 }
 
 /// The text of the shader: the modules of the tables, and the skeleton around them.
-fn text() -> Result<String, Failure> {
-    let programs = [
+fn text(detailed: bool) -> Result<String, Failure> {
+    let mut programs = vec![
         SLAB.program()?,
         SHADE.function("opacity")?,
         SHADE.function("transmittance")?,
         SHADE.function("specular")?,
-        SHADE.function("piece_of_ramp")?,
-        SHADE.function("preintegrated")?,
         NOISE.function("hash")?,
-        NOISE.function("fbm_octave")?,
-        NOISE.function("ridged_octave")?,
-        NOISE.function("brick")?,
     ];
+    if detailed {
+        programs.extend([
+            SHADE.function("piece_of_ramp")?,
+            SHADE.function("preintegrated")?,
+            NOISE.function("fbm_octave")?,
+            NOISE.function("ridged_octave")?,
+            NOISE.function("brick")?,
+        ]);
+    }
     let module = |program| Ok(emit::wgsl(&Plan::proved(program, Shape::Ladder)?) + "\n");
-    Ok(programs.into_iter().map(module).collect::<Result<String, Failure>>()? + skeleton::CONVOLVE)
+    Ok(programs.into_iter().map(module).collect::<Result<String, Failure>>()? + &skeleton::convolve(detailed))
 }
 
 impl SweepPasses {
-    /// Compiles the shader.
+    /// Compiles the shader, for patterns inside of objects or without.
     ///
     /// # Errors
     /// When the device refuses it.
-    pub(super) fn new(gpu: &Gpu) -> Result<Self, Failure> {
+    pub(super) fn new(gpu: &Gpu, detailed: bool) -> Result<Self, Failure> {
         let varying = ("record", RecordRow::min_size().get());
-        let module = Module::varying(gpu, "convolve", wgsl_text("convolve", &text()?)?, varying)?;
+        let module = Module::varying(gpu, "convolve", wgsl_text("convolve", &text(detailed)?)?, varying)?;
         let [begin, sweep] = ["begin", "sweep"].map(|entry| module.compute(gpu, entry, &[]));
         Ok(Self { begin: begin?, sweep: sweep?, module })
     }

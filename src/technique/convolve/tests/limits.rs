@@ -83,6 +83,18 @@ fn surfaces_that_coincide() {
     assert_eq!(light(&once), light(&twice));
 }
 
+/// Every closed shape is inside of itself, whichever rule says what that is.
+#[test]
+fn shapes_are_the_same_by_both_rules() {
+    for shape in ["Block(size: (1, 1, 1))", "Ball(radius: 0.6)", "Cylinder(radius: 0.5, height: 1)"] {
+        let scene = scene(LAMP, &format!("(shape: {shape}, turn: (30, 20, 10))"));
+        let [parity, winding] =
+            ["parity", "winding"].map(|rule| rendered(&scene, slabs(20).with(&set::RULE, Value::Word(rule))));
+        assert_eq!(light(&parity), light(&winding), "{shape}");
+        assert!(light(&parity).iter().any(|pixel| pixel[0] > 0.3), "{shape}");
+    }
+}
+
 /// Behind what absorbs everything light is 0, and not less.
 #[test]
 fn behind_opaque_matter_there_is_no_light() {
