@@ -213,13 +213,17 @@ pub struct Auto {
 impl Auto {
     /// The tuned plan if there is one for what the table means, else the
     /// default: `switch`, where the key is small enough for it, which does best
-    /// on most graphics processors, else `ladder`.
+    /// on most graphics processors, else `ladder`; of data `coefficients`, which
+    /// reads them from a buffer.
     pub fn of(program: &Program, tuned: Option<&Tuned>) -> Self {
         match tuned.map_or(Err(Fallback::Untuned), |tuned| tuned.choice(program)) {
             Ok((choice, shape)) => Self { shape, assume: choice.assume, fallback: None },
             Err(fallback) => {
-                let switch = Shape::Switch;
-                let shape = if Plan::new(program, switch).is_ok() { switch } else { Shape::Ladder };
+                let shape = match program.is_data() {
+                    true => Shape::Coefficients,
+                    false if Plan::new(program, Shape::Switch).is_ok() => Shape::Switch,
+                    false => Shape::Ladder,
+                };
                 Self { shape, assume: false, fallback: Some(fallback) }
             }
         }

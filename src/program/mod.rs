@@ -321,6 +321,10 @@ pub struct Example {
     pub expected: Vec<f64>,
 }
 
+/// Most constants that code writes out for the states of a table; a table with more is data, of which a shader reads
+/// a few numbers.
+pub const MAX_WRITTEN: usize = 4096;
+
 impl Program {
     /// Reads and checks the file of a table of cases.
     ///
@@ -439,6 +443,12 @@ impl Program {
     /// All inputs with their ids.
     pub fn input_ids(&self) -> impl Iterator<Item = (InputId, &Input)> {
         self.inputs.iter().enumerate().map(|(i, input)| (InputId::new(i), input))
+    }
+
+    /// Returns whether its states choose between so many constants that no code should write them out.
+    pub fn is_data(&self) -> bool {
+        let constants = self.pool.nodes().filter(|node| matches!(node, Node::Const(_)));
+        self.function.is_none() && constants.count() > MAX_WRITTEN
     }
 
     /// The levels of a discrete input.

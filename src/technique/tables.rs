@@ -33,7 +33,10 @@ macro_rules! built_in {
 }
 
 built_in! {
-    ["shade_g20.csv", "noise_permutation.csv"]
+    [
+        "shade_g20.csv", "noise_permutation.csv",
+        "ltc_ggx_a.csv", "ltc_ggx_b.csv", "ltc_ggx_c.csv", "ltc_ggx_d.csv", "ltc_ggx_albedo.csv", "ltc_ggx_fresnel.csv"
+    ]
     /// Silhouette revectorisation.
     SMSR = "smsr";
     /// Revectorised soft silhouettes.
@@ -70,6 +73,12 @@ built_in! {
     QUAD_DIAGONAL = "quad_diagonal";
     /// Form factors that have closed forms.
     CLOSED_FORMS = "closed_forms";
+    /// The matrices of linearly transformed cosines.
+    LTC_MATRIX = "ltc_matrix";
+    /// The albedos of linearly transformed cosines.
+    LTC_ALBEDO = "ltc_albedo";
+    /// Places in those two, and what is read there put together.
+    LTC = "ltc";
     /// Choices of convolution shadows.
     POLICIES = "policies";
     /// Cases of a slab.

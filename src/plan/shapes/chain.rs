@@ -20,6 +20,7 @@ pub(super) static ORDERED: Definition = Definition {
     summary: "the chain of guards in the best order that keeps the meaning",
     reads_buffer: false,
     needs_key: false,
+    holds_data: false,
     plan: ordered,
 };
 
@@ -28,6 +29,7 @@ pub(super) static NESTED: Definition = Definition {
     summary: "a few tests that decide many guards, then chains in the best order: the published advice",
     reads_buffer: false,
     needs_key: false,
+    holds_data: false,
     plan: nested,
 };
 

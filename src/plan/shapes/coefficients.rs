@@ -25,6 +25,7 @@ pub(super) static SHAPE: Definition = Definition {
     summary: "the key selects coefficients of a minimum or maximum of sums, in a buffer; no branch",
     reads_buffer: true,
     needs_key: true,
+    holds_data: true,
     plan,
 };
 
@@ -175,6 +176,10 @@ impl Fitter {
             (Some(_), Node::Ternary(TernaryOp::Clamp, inner, ..)) => inner,
             _ => value,
         };
+        // A constant is its own sum, whether or not it is a rational of few digits.
+        if let Some(constant) = pool.constant(value) {
+            return Some(Raw { sign: 1.0, forms: vec![(constant, HashMap::new())] });
+        }
         let clauses = self.normaliser.forms(pool, value)?;
         let (sign, forms): (f64, Vec<&Affine>) = match clauses {
             [clause] if clause.len() > 1 => (-1.0, clause.iter().collect()),

@@ -32,6 +32,7 @@ pub(super) static SHAPE: Definition = Definition {
     summary: "every fetch at one place, then a few tests and chains as in `nested`",
     reads_buffer: false,
     needs_key: false,
+    holds_data: false,
     plan: gathered,
 };
 

@@ -12,6 +12,7 @@ pub(super) static SHAPE: Definition = Definition {
     summary: "the chain of guards, as written",
     reads_buffer: false,
     needs_key: false,
+    holds_data: false,
     plan,
 };
 

@@ -16,6 +16,7 @@ use std::fmt;
 use super::Plan;
 use super::builder::Result;
 use super::setting::Setting;
+use crate::program::MAX_WRITTEN;
 
 /// A code shape, as its file declares it.
 pub(super) struct Definition {
@@ -27,6 +28,8 @@ pub(super) struct Definition {
     reads_buffer: bool,
     /// True if it chooses by the key, so that it does not suit functions without discrete inputs.
     needs_key: bool,
+    /// True if the constants that states choose between go into that buffer, and not into the code.
+    holds_data: bool,
     /// Plans a program.
     plan: for<'p> fn(&Setting<'p, '_>) -> Result<Plan<'p>>,
 }
@@ -103,6 +106,12 @@ impl Shape {
         let definition = self.definition();
         if definition.needs_key && setting.program.function.is_some() && setting.program.states.count() == 1 {
             return Err("it has no discrete inputs to choose by; use `ladder`".to_owned());
+        }
+        if !definition.holds_data && setting.program.is_data() {
+            return Err(format!(
+                "its states choose between more than {MAX_WRITTEN} constants, which would all be written out; use \
+                 `coefficients`, which reads them from a buffer"
+            ));
         }
         (definition.plan)(setting)
     }

@@ -41,6 +41,7 @@ pub(super) static SHAPE: Definition = Definition {
     summary: "symmetries, from a buffer, turn the inputs into those of few cases, whose result is turned back",
     reads_buffer: true,
     needs_key: true,
+    holds_data: false,
     plan,
 };
 

@@ -16,6 +16,7 @@ pub(super) static CONSTANTS: Definition = Definition {
     summary: "the packed key selects the case through a lookup in constants, then a `switch`",
     reads_buffer: false,
     needs_key: true,
+    holds_data: false,
     plan: |setting| plan(setting, MAX_CONSTANT_BITS, "use `switch_buffer` or `ladder`"),
 };
 
@@ -24,6 +25,7 @@ pub(super) static BUFFER: Definition = Definition {
     summary: "the same with the lookup in a buffer of the host, which supplies a function that reads a word of it",
     reads_buffer: true,
     needs_key: true,
+    holds_data: false,
     plan: |setting| plan(setting, MAX_BUFFER_BITS, "use `ladder`"),
 };
 

@@ -38,6 +38,7 @@ pub(super) static SHAPE: Definition = Definition {
     summary: "a graph of tests on inputs with the least expected number of them, numbers searched for among constants",
     reads_buffer: false,
     needs_key: false,
+    holds_data: false,
     plan: tree,
 };
 
