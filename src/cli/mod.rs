@@ -121,6 +121,9 @@ enum Command {
     Techniques,
     /// Light a picture by integral expansions: short for `render --technique integrals`, beside brute force
     Light(render::light::Arguments),
+    /// Measure what the vertices of lights and occluders cost under area lights
+    #[cfg(feature = "gpu")]
+    Vertices(render::vertices::Arguments),
     /// Rewrite formulas that divide by zero or lose their digits
     Stabilise(stabilise::Arguments),
     /// Measure every plan of a table on this device, and keep the best
@@ -208,6 +211,8 @@ pub fn main() -> ExitCode {
         Command::Atlas(arguments) => atlas::run(&arguments, &report),
         #[cfg(feature = "gpu")]
         Command::Bench(arguments) => render::bench::run(&arguments, &report),
+        #[cfg(feature = "gpu")]
+        Command::Vertices(arguments) => render::vertices::run(&arguments, &report),
         Command::Check(arguments) => check::run(&arguments, &report),
         Command::Build(arguments) => build::run(&arguments, &report),
         #[cfg(feature = "gpu")]

@@ -79,6 +79,25 @@ pub struct Entry {
     pub picture: RgbImage,
 }
 
+/// Pictures of the same size in rows of so many, labelled.
+///
+/// # Errors
+/// When the sheet is too large to be drawn.
+pub fn grid(entries: &[Entry], columns: u32) -> Result<RgbImage, Failure> {
+    let (width, height) = entries.first().map_or((1, 1), |first| first.picture.dimensions());
+    let (top, rows) = (24, (entries.len() as u32).div_ceil(columns.max(1)));
+    let (across, down) = (columns * (width + GAP) + GAP, rows * (top + height + GAP) + GAP);
+    let mut sheet = RgbImage::from_pixel(across, down, PAPER);
+    let mut text = String::new();
+    for (index, entry) in (0..).zip(entries) {
+        let (x, y) = (GAP + index % columns * (width + GAP), GAP + index / columns * (top + height + GAP));
+        label(&mut text, x, y + 16, 13, &entry.label);
+        imageops::replace(&mut sheet, &entry.picture, i64::from(x), i64::from(y + top));
+    }
+    overlay(&mut sheet, 0, across, down, &text)?;
+    Ok(sheet)
+}
+
 /// Width of a column of a contact sheet.
 const COLUMN: u32 = 384;
 /// Pixels of the picture per side of a zoomed inset.

@@ -1,4 +1,4 @@
-//! Matter inside of surfaces: how much it hides, what light does in it, and its patterns.
+//! Matter inside of surfaces: how much it hides, what light does in it, and its patterns; and the gloss of surfaces.
 
 use glam::DAffine3;
 
@@ -11,6 +11,15 @@ pub struct Matter {
     pub length: f64,
     /// The share of what it absorbs that goes on as light all the same, by colour: 0 absorbs, 1 casts no shadow.
     pub transport: [f64; 3],
+}
+
+/// A rough mirror on top of a surface: facets distributed as in GGX.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gloss {
+    /// From 0, a mirror, to 1; the square root of the width of the distribution.
+    pub roughness: f64,
+    /// Share of light that a facet reflects that is seen from straight above, from 0 to 1.
+    pub reflectance: f64,
 }
 
 impl Matter {

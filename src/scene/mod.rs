@@ -19,7 +19,7 @@ use std::path::Path;
 
 use crate::diag::{Diagnostic, Failure, Source, codes};
 use crate::scene::light::{Light, Lights, Punctual};
-use crate::scene::matter::{Detail, Matter, Shine};
+use crate::scene::matter::{Detail, Gloss, Matter, Shine};
 use crate::scene::view::Camera;
 use crate::text::closest::nearest;
 use crate::text::file;
@@ -54,6 +54,8 @@ pub struct Scene {
 pub struct Object {
     /// Its colour, linear.
     pub colour: [f64; 3],
+    /// What it reflects like a rough mirror, for techniques that show it.
+    pub gloss: Option<Gloss>,
     /// The matter inside of its surface, for techniques that look there.
     pub matter: Matter,
     /// Facets of its surface, for techniques that reflect light.
@@ -76,10 +78,11 @@ impl Object {
 }
 
 /// The scenes that come with Umbrage, by name.
-const BUILT_IN: [(&str, &str); 23] = [
+const BUILT_IN: [(&str, &str); 24] = [
     ("abutting", include_str!("../../scenes/abutting.ron")),
     ("boxes", include_str!("../../scenes/boxes.ron")),
     ("clouds", include_str!("../../scenes/clouds.ron")),
+    ("coincident", include_str!("../../scenes/coincident.ron")),
     ("columns", include_str!("../../scenes/columns.ron")),
     ("dining", include_str!("../../scenes/dining.ron")),
     ("disk", include_str!("../../scenes/disk.ron")),

@@ -79,8 +79,12 @@ pub fn wgsl(name: &str) -> Option<String> {
 /// The directions at a surface, divided and added up.
 pub(crate) const INTEGRALS: &str = include_str!("integrals.wgsl");
 
-/// Polygons of light at surfaces, cut and added up.
-pub(crate) const AREA: &str = include_str!("area.wgsl");
+/// Polygons of light at the surfaces of a picture, cut and added up.
+pub(crate) const AREA: &str = concat!(include_str!("area/peel.wgsl"), include_str!("area/picture.wgsl"));
+
+/// The same at points, each with a light and bodies of its own.
+#[cfg(all(feature = "gpu", feature = "render"))]
+pub(crate) const AREA_POINTS: &str = concat!(include_str!("area/peel.wgsl"), include_str!("area/points.wgsl"));
 
 /// The visible part of polygons of light, searched for by rays.
 pub(crate) const SEARCH: &str = include_str!("search.wgsl");

@@ -88,6 +88,8 @@ struct Edge {
 
 struct Found {
     received: vec3<f32>,
+    // The form factors of the lights, added up.
+    factor: f32,
     // The visible shares of the lights, added up.
     fraction: f32,
     // Lights that have a share.
@@ -897,7 +899,7 @@ fn area_search(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let pixel = at.y * frame.size.x + at.x;
-    var result = Found(vec3<f32>(0.0), 0.0, 0u, 0u, 0u, 0u);
+    var result = Found(vec3<f32>(0.0), 0.0, 0.0, 0u, 0u, 0u, 0u);
     if (surfaces[pixel].seen != 0u) {
         place = Corner(surfaces[pixel].high, surfaces[pixel].low);
         normal = surfaces[pixel].normal;
@@ -908,6 +910,7 @@ fn area_search(@builtin(global_invocation_id) id: vec3<u32>) {
                 result.fraction += visible_area / dot(light_normal, light_normal);
                 result.lights += 1u;
                 result.received += lights[light].colour * form_factor;
+                result.factor += form_factor;
             }
             if (light == 0u) {
                 result.configuration = configuration;

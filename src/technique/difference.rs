@@ -16,6 +16,29 @@ pub struct Difference {
     pub dissimilarity: f64,
 }
 
+/// The difference between two pictures of numbers, over all pixels that show a surface.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Absolute {
+    /// Mean of the magnitudes.
+    pub mean: f64,
+    /// Root of the mean of the squares.
+    pub rmse: f64,
+    /// The largest magnitude.
+    pub most: f64,
+}
+
+/// The difference between numbers and the true ones.
+pub fn of_numbers(surfaces: &Surfaces, values: &[f32], truth: &[f32]) -> Absolute {
+    let pixels = surfaces.points.iter().zip(values.iter().zip(truth)).filter(|(point, _)| point.is_some());
+    let differences = || pixels.clone().map(|(_, (value, truth))| f64::from(value - truth).abs());
+    let count = differences().count().max(1) as f64;
+    Absolute {
+        mean: differences().sum::<f64>() / count,
+        rmse: (differences().map(|apart| apart * apart).sum::<f64>() / count).sqrt(),
+        most: differences().fold(0.0, f64::max),
+    }
+}
+
 /// The pixels that differences are taken over, with the weight of each.
 #[derive(Debug, Clone)]
 pub struct Region {

@@ -100,6 +100,8 @@ pub trait Technique: Sync {
 pub enum Ability {
     /// The layer [`VALUE`](rendered::VALUE).
     Visibility,
+    /// The layer [`FACTOR`](area::FACTOR).
+    FormFactors,
     /// The layers [`CASE`](rendered::CASE) and [`STATE`](rendered::STATE).
     Cases,
     /// [`Prepared::inputs`].
@@ -114,6 +116,7 @@ impl fmt::Display for Ability {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Ability::Visibility => "visibility of a light",
+            Ability::FormFactors => "form factors of lights",
             Ability::Cases => "a table of cases",
             Ability::Inputs => "inputs that can be captured",
             Ability::Passes => "passes that can be measured",

@@ -180,4 +180,39 @@ fn options_of_the_search_are_for_the_search() {
         let said = place.run(&format!("area --input points.json --method search {wrong}"));
         assert_eq!(said.code, Some(2), "{wrong}");
     }
+#[test]
+fn a_gpu_gives_the_same_fields_in_single_precision_and_refuses_double() {
+    let place = Place::new();
+    let input = format!(
+        r#"{{"id": "plate", {LIGHT}, "occluders": [{{"type": "polygon", "v": [[-0.25,-0.25,1],[0.25,-0.25,1],[0.25,0.25,1],[-0.25,0.25,1]]}}]}}
+           {{"id": 3, {LIGHT}, "ltc": {{"view": [1,0,1], "minv": [[1,0,0.2],[0,1,0],[-0.1,0,0.7]]}}}}
+           {{"id": 5, "light": [[1,0,0],[2,0,0],[2,1,0]], "point": [0,0,0], "normal": [0,0,1]}}"#
+    );
+    place.file("points.json", &input);
+    for backend in ["gpu", "auto"] {
+        let said = place.run(&format!("area --input points.json --backend {backend} --precision f64"));
+        assert_eq!(said.code, Some(2));
+        assert!(said.out.is_empty() && said.err.contains("the GPU computes in f32 only"), "{}", said.err);
+    }
+    let expected = answers(&place, &input, "--precision f32");
+    // Without a GPU this is the CPU, in the same precision.
+    assert_eq!(answers(&place, &input, "--backend auto").len(), 3);
+    if crate::support::adapter().is_none() {
+        return;
+    }
+    let found = answers(&place, &input, "--backend gpu");
+    for (found, expected) in found.iter().zip(&expected) {
+        let fields = |answer: &Value| answer.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
+        assert_eq!((fields(found), &found["id"]), (fields(expected), &expected["id"]));
+        for (name, value) in expected.as_object().unwrap() {
+            match value.as_f64() {
+                Some(value) => assert!((number(found, name) - value).abs() < 1e-6, "{name}: {found} {expected}"),
+                None => assert_eq!(&found[name], value),
+            }
+        }
+    }
+    place.file("points.json", "[{\"id\": 1}]");
+    let said = place.run("area --input points.json --backend gpu");
+    assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+    assert!(said.err.contains("id 1"), "{}", said.err);
 }

@@ -8,12 +8,13 @@ mod values;
 use std::io::Write;
 use std::path::PathBuf;
 
+use super::args::{Backend, Machine};
 use super::messages::Report;
 use super::output::Sink;
 use super::{Outcome, PrecisionArgument, Result};
-use crate::diag::Failure;
+use crate::diag::{Diagnostic, Failure, codes};
 use crate::show::Precision;
-use method::{Answered, Choice, Machine};
+use method::{Choice, Method};
 use read::Row;
 
 /// Arguments of `umbrage area`.
@@ -25,33 +26,33 @@ pub(super) struct Arguments {
     /// The file for the answers, one JSON object a line, in the order of the points; `-` is standard output
     #[arg(long, default_value = "-", value_name = "FILE")]
     output: PathBuf,
-    /// Floating-point type
-    #[arg(long, value_enum, default_value = "f64", value_name = "TYPE")]
-    precision: PrecisionArgument,
+    /// Floating-point type; a GPU computes in f32 [default: f64 on the CPU, f32 with another --backend]
+    #[arg(long, value_enum, value_name = "TYPE")]
+    precision: Option<PrecisionArgument>,
     #[command(flatten)]
     choice: Choice,
+    #[command(flatten)]
+    machine: Machine,
 }
 
-/// Points whose edges are evaluated together.
-const PORTION: usize = 1024;
+/// Points that are computed together.
+const PORTION: usize = 1 << 14;
 
 /// Reads all points, then computes and writes.
-pub(super) fn run(arguments: &Arguments, _: &Report) -> Result<Outcome> {
-    let mut wide = arguments.choice.machine::<f64>()?;
-    let mut narrow = match arguments.precision.into() {
-        Precision::F32 => Some(arguments.choice.machine::<f32>()?),
-        Precision::F64 => None,
-    };
+pub(super) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
+    let (precision, search) = (precision(arguments)?, arguments.choice.search()?);
+    if search.is_some() && arguments.machine.backend == Some(Backend::Gpu) {
+        let error = Diagnostic::error(codes::NOT_APPLICABLE, "the search of points runs on the CPU");
+        return Err(Failure::bare("", error.help("leave out `--backend gpu`, or `--method search`")).into());
+    }
     let source = super::input::text(&arguments.input)?;
     let rows = read::rows(&source).map_err(|diagnostics| Failure { source: source.clone(), diagnostics })?;
-    let rows: Vec<(u32, &Row)> = rows.iter().enumerate().map(|(number, row)| (number as u32, row)).collect();
+    let executor = arguments.machine.executor(Backend::Cpu, report)?;
     let mut sink = Sink::create(&arguments.output)?;
+    let mut method = Method::new(precision, &executor, search)?;
+    let rows: Vec<(u32, &Row)> = rows.iter().enumerate().map(|(number, row)| (number as u32, row)).collect();
     for portion in rows.chunks(PORTION) {
-        let answers = match &mut narrow {
-            Some(narrow) => in_range(narrow, &mut wide, portion)?,
-            None => wide.answers(portion)?,
-        };
-        for ((_, row), answer) in portion.iter().zip(&answers) {
+        for ((_, row), answer) in portion.iter().zip(&method.answers(portion)?) {
             writeln!(sink, "{}", answer.object(row))?;
         }
     }
@@ -59,17 +60,16 @@ pub(super) fn run(arguments: &Arguments, _: &Report) -> Result<Outcome> {
     Ok(Outcome::Clean)
 }
 
-/// The answers in single precision; in double where one is beyond its range.
-fn in_range(
-    narrow: &mut Machine<f32>,
-    wide: &mut Machine<f64>,
-    rows: &[(u32, &Row)],
-) -> std::result::Result<Vec<Answered>, Failure> {
-    let mut all = narrow.answers(rows)?;
-    let beyond: Vec<usize> = (0..all.len()).filter(|index| !all[*index].is_finite()).collect();
-    let again: Vec<(u32, &Row)> = beyond.iter().map(|index| rows[*index]).collect();
-    for (index, answer) in beyond.into_iter().zip(wide.answers(&again)?) {
-        all[index] = answer;
+/// The precision that was asked for: double unless a GPU may compute, which has none.
+fn precision(arguments: &Arguments) -> std::result::Result<Precision, Failure> {
+    let may_be_gpu = arguments.machine.backend.is_some_and(|backend| backend != Backend::Cpu);
+    match arguments.precision.map(Precision::from) {
+        Some(Precision::F64) if may_be_gpu => {
+            let error = Diagnostic::error(codes::NOT_APPLICABLE, "the GPU computes in f32 only");
+            Err(Failure::bare("", error.help("leave out `--precision f64`, or use `--backend cpu`")))
+        }
+        Some(precision) => Ok(precision),
+        None if may_be_gpu => Ok(Precision::F32),
+        None => Ok(Precision::F64),
     }
-    Ok(all)
 }

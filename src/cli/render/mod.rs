@@ -2,8 +2,11 @@
 
 #[cfg(feature = "gpu")]
 pub(crate) mod bench;
+mod factors;
 pub(crate) mod light;
 pub(crate) mod quality;
+#[cfg(feature = "gpu")]
+pub(crate) mod vertices;
 
 use std::io::{Cursor, Write as _};
 use std::path::{Path, PathBuf};

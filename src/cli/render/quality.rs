@@ -1,7 +1,7 @@
-//! `umbrage quality`: how far each technique is from the true shadow.
+//! `umbrage quality`: how far each technique is from the true shadow; of lights with an extent see `factors.rs`.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
@@ -26,7 +26,7 @@ use crate::text::file::shown;
 pub(in crate::cli) struct Arguments {
     /// The scenes, names or scene files [default: all that come with Umbrage]
     #[arg(long, value_name = "SCENES", value_delimiter = ',')]
-    scenes: Vec<String>,
+    pub(super) scenes: Vec<String>,
     /// The techniques [default: all whose true visibility is known]
     #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = technique_parser(),
           hide_possible_values = true)]
@@ -36,17 +36,25 @@ pub(in crate::cli) struct Arguments {
     shadow_maps: Vec<u32>,
     /// Size of the pictures
     #[arg(long, default_value = "640x360", value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
-    size: (u32, u32),
+    pub(super) size: (u32, u32),
+    /// Rays of a pixel to each light, of techniques for lights with an extent
+    #[arg(long, value_name = "RAYS", value_delimiter = ',', default_value = "1,4,16,64,256",
+          value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub(super) rays: Vec<u32>,
+    /// Pictures of each of these techniques, whose median time counts
+    #[arg(long, value_name = "COUNT", default_value_t = 3,
+          value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1000))]
+    pub(super) rounds: usize,
     /// Write the numbers as JSON as well
     #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
+    pub(super) json: Option<PathBuf>,
     /// Plot the errors: *.svg or *.png
     #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
+    pub(super) plot: Option<PathBuf>,
     #[command(flatten)]
-    machine: Machine,
+    pub(super) machine: Machine,
     #[command(flatten)]
-    settings: SettingArguments,
+    pub(super) settings: SettingArguments,
 }
 
 /// The errors of one technique.
@@ -60,13 +68,13 @@ struct Row {
 
 /// Measures, then shows.
 pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    if let Some(path) = &arguments.plot
-        && !has_extension(path, "svg")
-        && !has_extension(path, "png")
-    {
-        let message = format!("`{}` is no kind of plot that can be written", shown(path));
-        let error = Diagnostic::error(codes::RENDER, message).help("name it *.svg or *.png");
-        return Err(Failure::bare("", error).into());
+    is_plot(arguments.plot.as_deref())?;
+    let has_factors = |one: &&TechniqueArgument| one.abilities().contains(&Ability::FormFactors);
+    if let Some(one) = arguments.techniques.iter().find(has_factors) {
+        for other in &arguments.techniques {
+            technique::require(*other, Ability::FormFactors, &format!("quality beside {one}"))?;
+        }
+        return super::factors::run(arguments, &with_truth(&arguments.techniques, Ability::FormFactors)?, report);
     }
     let techniques = techniques(arguments)?;
     let open = |name: &str| Scene::open(name);
@@ -87,11 +95,8 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         writeln!(sink, "{:#}", object())?;
         sinks.push(sink);
     }
-    if let Some(mut sink) = plot_sink {
-        let svg = draw(arguments, &techniques, &scenes, &rows);
-        let as_png = arguments.plot.as_deref().is_some_and(|path| has_extension(path, "png"));
-        let bytes = if as_png { picture::png(&picture::raster(&svg, 1.0)?)? } else { svg.into_bytes() };
-        sink.write_all(&bytes)?;
+    if let (Some(mut sink), Some(path)) = (plot_sink, &arguments.plot) {
+        sink.write_all(&plots(path, draw(arguments, &techniques, &scenes, &rows))?)?;
         sinks.push(sink);
     }
     finish_all(sinks)?;
@@ -113,9 +118,15 @@ fn techniques(arguments: &Arguments) -> std::result::Result<Vec<TechniqueArgumen
     for technique in &arguments.techniques {
         technique::require(*technique, Ability::Visibility, "quality")?;
     }
-    let asked = if arguments.techniques.is_empty() { technique::ALL } else { &arguments.techniques };
-    let has_truth =
-        |technique: &dyn Technique| technique.truth().is_some() && technique.abilities().contains(&Ability::Visibility);
+    with_truth(
+        if arguments.techniques.is_empty() { technique::ALL } else { &arguments.techniques },
+        Ability::Visibility,
+    )
+}
+
+/// Those with an ability whose truth is another technique.
+fn with_truth(asked: &[TechniqueArgument], ability: Ability) -> std::result::Result<Vec<TechniqueArgument>, Failure> {
+    let has_truth = |technique: &dyn Technique| technique.truth().is_some() && technique.abilities().contains(&ability);
     let measured: Vec<TechniqueArgument> = asked.iter().copied().filter(|technique| has_truth(*technique)).collect();
     if measured.is_empty() {
         let message = "no true picture is known for the techniques that were named";
@@ -278,18 +289,19 @@ fn verdicts(
     Ok(())
 }
 
-/// A plot per scene, in rows of three: error near silhouettes over the size of the map.
-fn draw(arguments: &Arguments, techniques: &[TechniqueArgument], scenes: &[Scene], rows: &[Row]) -> String {
-    let (width, height) = (420, 320);
-    let plots: String = scenes
+/// Width and height of a plot.
+pub(super) const PLOT: (u32, u32) = (420, 320);
+
+/// A plot per scene: error near silhouettes over the size of the map.
+fn draw(arguments: &Arguments, techniques: &[TechniqueArgument], scenes: &[Scene], rows: &[Row]) -> Vec<String> {
+    scenes
         .iter()
-        .enumerate()
-        .map(|(index, scene)| {
+        .map(|scene| {
             let frame = plot::Frame {
                 title: scene.title.clone(),
                 x: plot::Axis { label: "texels per side of the shadow map".to_owned(), scale: plot::Scale::Log2 },
                 y: plot::Axis { label: "RMSE near silhouettes".to_owned(), scale: plot::Scale::Linear },
-                size: (width, height),
+                size: PLOT,
             };
             let series = |technique: &TechniqueArgument| {
                 let at = |map: &u32| Some((f64::from(*map), find(rows, scene, *map, *technique)?.near.rmse));
@@ -298,14 +310,36 @@ fn draw(arguments: &Arguments, techniques: &[TechniqueArgument], scenes: &[Scene
                 plot::Series { name: technique.name().to_owned(), points }
             };
             let all: Vec<plot::Series> = techniques.iter().map(series).collect();
-            let (x, y) = (index as u32 % 3 * width, index as u32 / 3 * height);
-            plot::lines(&frame, &all).replacen("<svg ", &format!("<svg x=\"{x}\" y=\"{y}\" "), 1)
+            plot::lines(&frame, &all)
         })
-        .collect();
-    let count = scenes.len() as u32;
+        .collect()
+}
+
+/// Refuses the name of a file that is no plot.
+pub(super) fn is_plot(path: Option<&Path>) -> std::result::Result<(), Failure> {
+    match path {
+        Some(path) if !has_extension(path, "svg") && !has_extension(path, "png") => {
+            let message = format!("`{}` is no kind of plot that can be written", shown(path));
+            let error = Diagnostic::error(codes::RENDER, message).help("name it *.svg or *.png");
+            Err(Failure::bare("", error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Plots of the size of [`PLOT`] in rows of three, as the bytes of a file of this name.
+pub(super) fn plots(path: &Path, plots: Vec<String>) -> std::result::Result<Vec<u8>, Failure> {
+    let (width, height) = PLOT;
+    let count = plots.len() as u32;
+    let place = |(index, plot): (usize, String)| {
+        let (x, y) = (index as u32 % 3 * width, index as u32 / 3 * height);
+        plot.replacen("<svg ", &format!("<svg x=\"{x}\" y=\"{y}\" "), 1)
+    };
+    let placed: String = plots.into_iter().enumerate().map(place).collect();
     let (width, height) = (count.min(3) * width, count.div_ceil(3) * height);
-    format!(
+    let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">\
-         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>{plots}</svg>\n"
-    )
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>{placed}</svg>\n"
+    );
+    if has_extension(path, "png") { picture::png(&picture::raster(&svg, 1.0)?) } else { Ok(svg.into_bytes()) }
 }

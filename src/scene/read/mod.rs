@@ -16,7 +16,7 @@ use glam::{DAffine3, DQuat, DVec3, EulerRot};
 use serde::Deserialize;
 
 use crate::diag::{Diagnostic, Source, codes};
-use crate::scene::matter::{Matter, Shine};
+use crate::scene::matter::{Gloss, Matter, Shine};
 use crate::scene::shapes::Shape;
 use crate::scene::shapes::letters;
 use crate::scene::shapes::solid::{Solid, Triangle};
@@ -68,6 +68,8 @@ struct ObjectRon<'a> {
     #[serde(default)]
     colour: Option<Raw<'a>>,
     #[serde(default)]
+    gloss: Option<Raw<'a>>,
+    #[serde(default)]
     matter: Option<Raw<'a>>,
     #[serde(default)]
     shine: Option<Raw<'a>>,
@@ -77,6 +79,15 @@ struct ObjectRon<'a> {
     transfer: Option<Raw<'a>>,
     #[serde(default)]
     copies: Option<Raw<'a>>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename = "Gloss", deny_unknown_fields)]
+struct GlossRon<'a> {
+    #[serde(borrow)]
+    roughness: Raw<'a>,
+    #[serde(default)]
+    reflectance: Option<Raw<'a>>,
 }
 
 #[derive(Deserialize)]
@@ -306,12 +317,22 @@ impl<'a> Read<'a> {
         })
     }
 
+    fn gloss(&self, raw: Raw<'a>) -> Result<Gloss> {
+        let ron: GlossRon<'_> = self.reader.get(raw)?;
+        Ok(Gloss {
+            roughness: self.number(ron.roughness, 0.0, 1.0)?,
+            // Glass, varnish, most plastics.
+            reflectance: self.or(ron.reflectance, 0.04, |raw| self.number(raw, 0.0, 1.0))?,
+        })
+    }
+
     fn object(&self, raw: Raw<'a>) -> Result<Object> {
         let ron: ObjectRon<'_> = self.reader.get(raw)?;
         let at = self.or(ron.at, DVec3::ZERO, |raw| self.place(raw))?;
         let [x, y, z] = self.or(ron.turn, [0.0; 3], |raw| self.triple(raw, -360.0, 360.0))?.map(f64::to_radians);
         let scale = self.or(ron.scale, 1.0, |raw| self.length(raw))?;
         let colour = self.or(ron.colour, [0.75, 0.75, 0.75], |raw| self.colour(raw))?;
+        let gloss = ron.gloss.map(|raw| self.gloss(raw)).transpose()?;
         let matter = self.or(ron.matter, Matter::OPAQUE, |raw| self.matter(raw))?;
         let shine = ron.shine.map(|raw| self.shine(raw)).transpose()?;
         let (count, step) = match ron.copies {
@@ -334,7 +355,7 @@ impl<'a> Read<'a> {
         for index in 0..count {
             solid.add(&shape, &place(index), scale);
         }
-        Ok(Object { colour, matter, shine, detail, casts, triangles: solid.triangles, parts: solid.parts })
+        Ok(Object { colour, gloss, matter, shine, detail, casts, triangles: solid.triangles, parts: solid.parts })
     }
 
     /// The surface of a shape, and whether the shadow map is fitted to it.

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
-
 #[cfg(feature = "gpu")]
 use super::gpu::Peeling;
 use super::lit::Lit;
 use super::picture::{Pixels, peeled};
+use super::received::Received;
 use super::sampling::{Filter, estimates, ratio};
 use crate::diag::Failure;
 #[cfg(feature = "gpu")]
@@ -20,7 +19,9 @@ use crate::technique::Executor;
 use crate::technique::prepared::{Detail, Pass};
 use crate::technique::rendered::LIGHT;
 use crate::technique::setting::{Range, Value};
-use crate::technique::tables::{BOX_SILHOUETTE, BuiltIn, CLIP_STEP, EDGE_INTEGRAL, EDGE_SILHOUETTE, HORIZON_CLIP};
+use crate::technique::tables::{
+    BOX_SILHOUETTE, BuiltIn, CLIP_STEP, EDGE_INTEGRAL, EDGE_SILHOUETTE, HORIZON_CLIP, LTC, LTC_ALBEDO, LTC_MATRIX,
+};
 use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
 /// Rays to each light.
@@ -50,6 +51,22 @@ pub const RADIUS: Setting = Setting {
     label: "",
 };
 
+/// Solids by their silhouettes: a word of [`OCCLUDERS`].
+pub const SILHOUETTES: &str = "silhouettes";
+/// Every surface by its triangles, as if it were no solid: a word of [`OCCLUDERS`].
+pub const TRIANGLES: &str = "triangles";
+
+/// The way in which occluders are taken.
+pub const OCCLUDERS: Setting = Setting {
+    name: "occluders",
+    doc: "solids by their silhouettes, or everything by its triangles, to compare",
+    default: Value::Word(SILHOUETTES),
+    range: Range::Word(&[SILHOUETTES, TRIANGLES]),
+    label: "",
+};
+
+/// Layer of the sums of the form factors of lights.
+pub const FACTOR: &str = "form_factor";
 /// Layer of the convex pieces that lights were cut into.
 pub const PIECES: &str = "pieces";
 /// Layer of the clips of a polygon against a plane.
@@ -57,7 +74,10 @@ pub const CLIPS: &str = "clips";
 /// Layer of the pixels beyond the bounds that are set aside: 1 there, else 0.
 pub const OVERFLOW: &str = "overflow";
 
-static TABLES: [&BuiltIn; 5] = [&HORIZON_CLIP, &CLIP_STEP, &BOX_SILHOUETTE, &EDGE_SILHOUETTE, &EDGE_INTEGRAL];
+static TABLES: [&BuiltIn; 8] =
+    [&HORIZON_CLIP, &CLIP_STEP, &BOX_SILHOUETTE, &EDGE_SILHOUETTE, &EDGE_INTEGRAL, &LTC_MATRIX, &LTC_ALBEDO, &LTC];
+/// Those of surfaces only.
+static OF_SURFACES: [&BuiltIn; 3] = [&LTC_MATRIX, &LTC_ALBEDO, &LTC];
 
 /// A way to the light of polygons.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,7 +129,7 @@ impl Technique for Entry {
 
     fn tables(&self) -> &'static [&'static BuiltIn] {
         match self.0 {
-            Way::Samples => &[],
+            Way::Samples => &OF_SURFACES,
             Way::Peel | Way::Exact | Way::Ratio | Way::Unshadowed => &TABLES,
         }
     }
@@ -120,14 +140,15 @@ impl Technique for Entry {
 
     fn settings(&self) -> &'static [Setting] {
         match self.0 {
-            Way::Peel | Way::Exact | Way::Unshadowed => &[],
+            Way::Peel | Way::Exact => &[OCCLUDERS],
+            Way::Unshadowed => &[],
             Way::Samples => &[SAMPLES, SEED],
             Way::Ratio => &[SAMPLES, SEED, RADIUS],
         }
     }
 
     fn abilities(&self) -> &'static [Ability] {
-        &[Ability::Passes]
+        &[Ability::FormFactors, Ability::Passes]
     }
 
     fn truth(&self) -> Option<&'static str> {
@@ -215,7 +236,7 @@ impl<'s> Area<'s> {
         }
     }
 
-    fn unshadowed(&self, progress: &Progress<'_>) -> Result<Vec<DVec3>, Failure> {
+    fn unshadowed(&self, progress: &Progress<'_>) -> Result<Vec<Received>, Failure> {
         Ok(peeled::<f64>(&self.lit.without_occluders(), progress)?.received)
     }
 }
@@ -223,10 +244,10 @@ impl<'s> Area<'s> {
 impl<'s> Prepared<'s> for Area<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
         let pixels = self.pixels(progress)?;
-        let points = self.lit.surfaces.points.iter();
-        let sent = points.zip(&pixels.received).map(|(point, received)| self.lit.sent(point.as_ref(), *received));
+        let sent = pixels.received.iter().enumerate().map(|(pixel, received)| self.lit.sent(pixel, *received));
         let light = sent.map(|light| light.as_vec3().to_array()).collect();
-        let rendered = Rendered::default().with(LIGHT, Samples::Colours(light));
+        let factors = pixels.received.iter().map(|received| received.factor as f32).collect();
+        let rendered = Rendered::default().with(LIGHT, Samples::Colours(light)).with(FACTOR, Samples::Numbers(factors));
         Ok(match self.way {
             Way::Peel | Way::Exact => rendered
                 .with(PIECES, Samples::Counts(pixels.work.iter().map(|work| work.pieces as u32).collect()))

@@ -105,11 +105,15 @@ impl<T: Scalar> Integrals<T> {
     }
 }
 
-fn values<T: Scalar>(
+/// A function of one number at some points, whose columns have the names of its parameters.
+///
+/// # Errors
+/// When it has other parameters.
+pub(super) fn values<T: Scalar, const N: usize>(
     batch: &mut Batch<'static, T>,
     program: &Program,
-    names: [&str; 9],
-    numbers: [Vec<T>; 9],
+    names: [&str; N],
+    numbers: [Vec<T>; N],
 ) -> Result<Vec<T>, Failure> {
     let columns = columns(program, names, numbers)?;
     let missing = |_| {

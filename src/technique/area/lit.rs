@@ -4,10 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::entry::{OCCLUDERS, TRIANGLES};
+use super::gloss::{Seen, Sheen, sheens};
 use super::mesh::Mesh;
 use super::occluder::Occluder;
+use super::received::Received;
 use crate::diag::Failure;
 use crate::scene::light::{Light, Lights, Polygon};
+use crate::scene::matter::Gloss;
 use crate::scene::rays::SurfacePoint;
 use crate::scene::surfaces::Surfaces;
 use crate::scene::{Form, Object, Scene};
@@ -23,6 +27,12 @@ pub(super) struct Lit {
     pub(super) blur: f64,
     /// For each object the share of light that its surface sends on.
     albedos: Vec<DVec3>,
+    /// The place of the camera.
+    pub(super) eye: DVec3,
+    /// For each object its gloss.
+    pub(super) glosses: Vec<Option<Gloss>>,
+    /// For each pixel what the gloss of its surface makes of light.
+    pub(super) sheens: Arc<Vec<Option<Sheen>>>,
     ambient: f64,
     background: DVec3,
 }
@@ -38,15 +48,23 @@ impl Lit {
             Light::Polygon(polygon) => Some(polygon.clone()),
             Light::Directional(_) | Light::Spot(_) | Light::Gaussian(_) => None,
         });
-        frame.shared("area", || {
+        let taken = frame.settings.word(&OCCLUDERS);
+        frame.shared(("area", taken), || {
             let scene = frame.scene;
             let corners = scene.triangles().flat_map(|(_, triangle)| triangle.corners);
+            let glosses: Vec<Option<Gloss>> = scene.objects.iter().map(|object| object.gloss).collect();
             let reach = corners.map(|corner| corner.abs().max_element()).fold(0.0, f64::max);
             Ok(Self {
                 lights: lights.collect(),
-                occluders: occluders(scene),
+                occluders: match taken == TRIANGLES {
+                    true => triangles(scene),
+                    false => occluders(scene),
+                },
                 surfaces: Arc::clone(&frame.surfaces),
                 blur: 1e-9 * reach,
+                eye: scene.camera.eye,
+                sheens: Arc::new(sheens_of(&frame.surfaces, &glosses, scene.camera.eye)?),
+                glosses,
                 albedos: scene.objects.iter().map(|object| DVec3::from_array(object.colour)).collect(),
                 ambient: scene.ambient,
                 background: DVec3::from_array(scene.background),
@@ -61,29 +79,58 @@ impl Lit {
             occluders: Vec::new(),
             surfaces: Arc::clone(&self.surfaces),
             albedos: self.albedos.clone(),
+            glosses: self.glosses.clone(),
+            sheens: Arc::clone(&self.sheens),
             ..*self
         }
     }
 
     /// The same with other surfaces in the picture.
-    pub(super) fn with_surfaces(&self, surfaces: Arc<Surfaces>) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// Never for the tables that come with Umbrage.
+    pub(super) fn with_surfaces(&self, surfaces: Arc<Surfaces>) -> Result<Self, Failure> {
+        Ok(Self {
             lights: self.lights.clone(),
             occluders: self.occluders.clone(),
+            sheens: Arc::new(sheens_of(&surfaces, &self.glosses, self.eye)?),
             surfaces,
             albedos: self.albedos.clone(),
+            glosses: self.glosses.clone(),
             ..*self
-        }
+        })
     }
 
-    /// The light that a pixel sends to the camera, by that which its surface receives: the sum of the form factors of
-    /// lights, each times its radiance.
-    pub(super) fn sent(&self, point: Option<&SurfacePoint>, received: DVec3) -> DVec3 {
-        let Some(point) = point else { return self.background };
+    /// What the gloss of the surface at a pixel makes of light, if it has any.
+    pub(super) fn sheen(&self, pixel: usize) -> Option<Sheen> {
+        self.sheens[pixel]
+    }
+
+    /// The light that a pixel sends to the camera, by that which its surface receives.
+    pub(super) fn sent(&self, pixel: usize, received: Received) -> DVec3 {
+        let Some(point) = &self.surfaces.points[pixel] else { return self.background };
         // The sky above is brighter than the ground below, as in every shaded picture.
         let sky = 0.75 + 0.25 * point.smooth_normal.y;
-        self.albedos[point.object as usize] * (DVec3::splat(self.ambient * sky) + (1.0 - self.ambient) * received)
+        let diffuse = DVec3::splat(self.ambient * sky) + (1.0 - self.ambient) * received.diffuse;
+        let glossy = self.sheen(pixel).map_or(0.0, |sheen| (1.0 - self.ambient) * sheen.share);
+        self.albedos[point.object as usize] * diffuse + glossy * received.glossy
     }
+}
+
+/// What the gloss of each pixel's surface makes of light.
+fn sheens_of(surfaces: &Surfaces, glosses: &[Option<Gloss>], eye: DVec3) -> Result<Vec<Option<Sheen>>, Failure> {
+    let seen = |point: &SurfacePoint| -> Option<Seen> {
+        Some((glosses[point.object as usize]?, point.smooth_normal, eye - point.place))
+    };
+    let seen: Vec<Option<Seen>> = surfaces.points.iter().map(|point| point.as_ref().and_then(seen)).collect();
+    let mut found = sheens(&seen.iter().flatten().copied().collect::<Vec<Seen>>())?.into_iter();
+    Ok(seen.into_iter().map(|seen| seen.and_then(|_| found.next())).collect())
+}
+
+/// The occluders of a scene, all of them triangles.
+fn triangles(scene: &Scene) -> Vec<Occluder> {
+    let casting = scene.objects.iter().filter(|object| object.casts);
+    casting.flat_map(|object| &object.triangles).map(|triangle| Occluder::polygon(triangle.corners.to_vec())).collect()
 }
 
 /// The occluders of a scene: exact forms as they are, everything else as meshes.

@@ -9,15 +9,19 @@
 //! through the point along its silhouette, and what is visible is left when these are peeled off
 //! (`peel.rs`). Every decision is a row of a table: the horizon's clip (`horizon_clip`), the clip
 //! against a plane (`clip_step`), the silhouettes of boxes (`box_silhouette`) and meshes
-//! (`edge_silhouette`), and the edge integral (`edge_integral`). The method is that of KT,
+//! (`edge_silhouette`), the edge integral (`edge_integral`), and what gloss makes of light (`ltc_matrix`,
+//! `ltc_albedo`, `ltc`). The method is that of KT,
 //! Sakurikar and Narayanan, Fast Analytic Soft Shadows from Area Lights (Graphics Interface 2021),
 //! with half-spaces in place of its polygon clipping.
 
 mod clip;
 mod cone;
 mod entry;
+mod gloss;
 #[cfg(feature = "gpu")]
 mod gpu;
+#[cfg(feature = "gpu")]
+pub mod grid;
 mod integral;
 mod lit;
 pub mod mesh;
@@ -26,20 +30,26 @@ mod panel;
 mod peel;
 mod picture;
 pub mod point;
+mod received;
 mod sampling;
 mod scalar;
 pub mod search;
+mod single;
 mod tabulated;
 mod tiles;
 mod viewpoint;
 
 pub use entry::{
-    AREA_RATIO, AREA_SAMPLES, AREA_UNSHADOWED, CLIPS, EXACT, Entry, OVERFLOW, PEEL, PIECES, RADIUS, SAMPLES, SEED,
+    AREA_RATIO, AREA_SAMPLES, AREA_UNSHADOWED, CLIPS, EXACT, Entry, FACTOR, OCCLUDERS, OVERFLOW, PEEL, PIECES, RADIUS,
+    SAMPLES, SEED, SILHOUETTES, TRIANGLES,
 };
+#[cfg(feature = "gpu")]
+pub use gpu::PointPeeler;
 pub use occluder::Occluder;
 pub use peel::{Bounds, Work};
 pub use point::{Answer, Peeler, Query, Question, Shape};
 pub use scalar::Scalar;
+pub use single::SinglePeeler;
 
 #[cfg(test)]
 mod tests;

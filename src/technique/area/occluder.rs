@@ -81,6 +81,16 @@ impl Occluder {
         &self.form
     }
 
+    /// The number of corners of all of its faces.
+    #[cfg(feature = "gpu")]
+    pub(super) fn corners(&self) -> usize {
+        match &self.form {
+            Form::Polygon(corners) => corners.len(),
+            Form::Box { .. } => 24,
+            Form::Mesh(mesh) => mesh.faces().iter().map(Vec::len).sum(),
+        }
+    }
+
     /// A sphere that holds all of it: its centre and its radius.
     pub fn sphere(&self) -> (DVec3, f64) {
         (self.centre, self.radius)

@@ -1,12 +1,12 @@
 //! Pictures by peeling: every pixel of every tile, behind the occluders that can matter to it.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::lit::Lit;
 use super::occluder::Occluder;
 use super::peel::Work;
 use super::point::{Answer, Peeler, Query};
+use super::received::Received;
 use super::scalar::Scalar;
 use super::tiles::{SIDE, candidates, pixels};
 use crate::diag::Failure;
@@ -16,23 +16,23 @@ use crate::technique::Progress;
 /// The results for the pixels of a picture, row by row from the top.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Pixels {
-    /// The sum of the form factors of lights, each times its radiance.
-    pub(super) received: Vec<DVec3>,
+    /// The light that arrives.
+    pub(super) received: Vec<Received>,
     /// The same without occluders.
-    pub(super) unshadowed: Vec<DVec3>,
+    pub(super) unshadowed: Vec<Received>,
     /// The work for all lights together.
     pub(super) work: Vec<Work>,
 }
 
 impl Pixels {
     pub(super) fn new(count: usize) -> Self {
-        let none = vec![DVec3::ZERO; count];
+        let none = vec![Received::default(); count];
         Self { received: none.clone(), unshadowed: none, work: vec![Work::default(); count] }
     }
 }
 
 /// The results for a tile: each pixel with its light, with and without occluders, and its work.
-type Tile = Vec<(usize, DVec3, DVec3, Work)>;
+type Tile = Vec<(usize, Received, Received, Work)>;
 
 /// Computes the light at every pixel.
 ///
@@ -103,14 +103,15 @@ fn tile<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, column: usize, row: usize)
 
 /// Pixels that are near to each other.
 fn together<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, seen: &[(usize, &SurfacePoint)]) -> Result<Tile, Failure> {
-    let mut tile: Tile = seen.iter().map(|(pixel, _)| (*pixel, DVec3::ZERO, DVec3::ZERO, Work::default())).collect();
+    let none = Received::default();
+    let mut tile: Tile = seen.iter().map(|(pixel, _)| (*pixel, none, none, Work::default())).collect();
     if seen.is_empty() {
         return Ok(tile);
     }
     for light in &lit.lights {
         let occluders = candidates(lit, light, seen.iter().map(|(_, point)| point.place));
         let occluders: Vec<&Occluder> = occluders.into_iter().map(|index| &lit.occluders[index]).collect();
-        let query = |(_, point): &(usize, &SurfacePoint)| Query {
+        let query = |(pixel, point): &(usize, &SurfacePoint)| Query {
             light: &light.corners,
             two_sided: light.two_sided,
             point: point.place,
@@ -118,13 +119,13 @@ fn together<T: Scalar>(lit: &Lit, peeler: &mut Peeler<T>, seen: &[(usize, &Surfa
             normal: point.smooth_normal,
             fraction: false,
             occluders: occluders.as_slice().into(),
-            shape: None,
+            shape: lit.sheen(*pixel).map(|sheen| sheen.shape),
         };
         let answers: Vec<Answer> = peeler.answers(seen.iter().map(query))?;
         for ((_, received, unshadowed, work), answer) in tile.iter_mut().zip(answers) {
-            let colour = DVec3::from_array(light.colour);
-            *received += answer.form_factor * colour;
-            *unshadowed += answer.form_factor_unshadowed * colour;
+            let (with, without) = answer.shaped.unwrap_or_default();
+            *received += Received::of(light.colour, [answer.form_factor, with]);
+            *unshadowed += Received::of(light.colour, [answer.form_factor_unshadowed, without]);
             work.pieces += answer.work.pieces;
             work.clips += answer.work.clips;
             work.overflow |= answer.work.overflow;

@@ -286,13 +286,13 @@ impl<T: Scalar> Peeler<T> {
 }
 
 /// A vector of any length but zero, made as long as 1; its squares may be too large or too small for a number.
-fn unit(vector: DVec3) -> DVec3 {
+pub(super) fn unit(vector: DVec3) -> DVec3 {
     (vector / vector.abs().max_element()).normalize()
 }
 
 impl Shape {
     /// The rows of the inverse matrix in the axes of the world, at a point with a unit normal.
-    fn rows(&self, normal: DVec3) -> [Vector<f64>; 3] {
+    pub(super) fn rows(&self, normal: DVec3) -> [Vector<f64>; 3] {
         let view = unit(self.view);
         let along = view - normal * view.dot(normal);
         // With the view along the normal any direction will do.

@@ -1,9 +1,11 @@
 //! The estimators that peeling is compared with: rays towards stratified places on each light.
 
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::gloss::Sheen;
 use super::lit::Lit;
+use super::received::Received;
 use crate::scene::light::Polygon;
 use crate::scene::rays::{Rays, SurfacePoint, Tests};
 use crate::technique::Progress;
@@ -37,11 +39,32 @@ impl Stream {
     }
 }
 
-/// Sums over the samples of a pixel: with and without occluders, for each channel.
+/// Sums over the samples of a pixel: with and without occluders.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Estimate {
-    pub(super) shadowed: DVec3,
-    pub(super) unshadowed: DVec3,
+    pub(super) shadowed: Received,
+    pub(super) unshadowed: Received,
+}
+
+/// The transform of directions that a glossy surface has.
+#[derive(Debug, Clone, Copy)]
+struct Lobe {
+    inverse: DMat3,
+    determinant: f64,
+}
+
+impl Lobe {
+    fn new(sheen: &Sheen, normal: DVec3) -> Self {
+        let inverse = DMat3::from_cols_array_2d(&sheen.shape.rows(normal)).transpose();
+        Self { inverse, determinant: inverse.determinant() }
+    }
+
+    /// What takes the place of the cosine over pi: the density of the lobe in a direction.
+    fn density(&self, direction: DVec3) -> f64 {
+        let turned = self.inverse * direction;
+        let length = turned.length();
+        (turned.z / length).max(0.0) / std::f64::consts::PI * self.determinant / length.powi(3)
+    }
 }
 
 /// Estimates the light at every pixel from some rays to each light.
@@ -51,13 +74,13 @@ pub(super) fn estimates(lit: &Lit, rays: &Rays, samples: u32, frame: u32, progre
         let tests = rays.tests(None);
         let pixel = |(x, point): (usize, &Option<SurfacePoint>)| {
             let Some(point) = point else { return Estimate::default() };
+            let lobe = lit.sheen(y * width + x).map(|sheen| Lobe::new(&sheen, point.smooth_normal));
             let mut sum = Estimate::default();
             for (index, light) in lit.lights.iter().enumerate() {
                 let mut stream = Stream::new([x as u32, y as u32], index as u32, frame);
-                let (with, without) = at_point(&tests, point, light, samples, &mut stream);
-                let colour = DVec3::from_array(light.colour);
-                sum.shadowed += colour * with;
-                sum.unshadowed += colour * without;
+                let [with, without] = at_point(&tests, point, lobe.as_ref(), light, samples, &mut stream);
+                sum.shadowed += Received::of(light.colour, with);
+                sum.unshadowed += Received::of(light.colour, without);
             }
             sum
         };
@@ -85,11 +108,18 @@ pub(super) fn fractions(lit: &Lit, rays: &Rays) -> Vec<f64> {
     lit.surfaces.points.par_iter().map(one).collect()
 }
 
-/// The form factor of a light, with and without occluders, by places in a grid of strata.
-fn at_point(tests: &Tests<'_>, point: &SurfacePoint, light: &Polygon, samples: u32, stream: &mut Stream) -> (f64, f64) {
+/// The two form factors of a light, with and without occluders, by places in a grid of strata.
+fn at_point(
+    tests: &Tests<'_>,
+    point: &SurfacePoint,
+    lobe: Option<&Lobe>,
+    light: &Polygon,
+    samples: u32,
+    stream: &mut Stream,
+) -> [[f64; 2]; 2] {
     let area = light.area();
     let columns = f64::from(samples).sqrt().ceil() as u32;
-    let (mut with, mut without) = (0.0, 0.0);
+    let (mut with, mut without) = ([0.0; 2], [0.0; 2]);
     for index in 0..samples {
         // Rows of strata; the last one has fewer and wider ones.
         let (row, rows) = (index / columns, samples.div_ceil(columns));
@@ -107,13 +137,16 @@ fn at_point(tests: &Tests<'_>, point: &SurfacePoint, light: &Polygon, samples: u
         if cosine <= 0.0 || emitted <= 0.0 {
             continue;
         }
-        let part = weight * area * cosine * emitted / (std::f64::consts::PI * square * square);
-        without += part;
-        if tests.is_open(point.place, place) {
-            with += part;
+        let across = weight * area * emitted / (square * square.sqrt());
+        let diffuse = across * cosine / (std::f64::consts::PI * square.sqrt());
+        let glossy = lobe.map_or(0.0, |lobe| across * lobe.density(towards / square.sqrt()));
+        let is_open = tests.is_open(point.place, place);
+        for (index, part) in [diffuse, glossy].into_iter().enumerate() {
+            without[index] += part;
+            with[index] += if is_open { part } else { 0.0 };
         }
     }
-    (with, without)
+    [with, without]
 }
 
 /// Sizes of the filter of the ratio estimator.
@@ -127,13 +160,13 @@ pub(super) struct Filter {
 ///
 /// Shadowed and unshadowed sums are filtered alike and then divided, over pixels whose surfaces are close and
 /// look the same way (Heitz, Hill and McGuire, Combining Analytic Direct Illumination and Stochastic Shadows, I3D 2018).
-pub(super) fn ratio(lit: &Lit, estimates: &[Estimate], unshadowed: &[DVec3], filter: Filter) -> Vec<DVec3> {
+pub(super) fn ratio(lit: &Lit, estimates: &[Estimate], unshadowed: &[Received], filter: Filter) -> Vec<Received> {
     let (width, height) = (lit.surfaces.width as i64, lit.surfaces.height as i64);
     let radius = i64::from(filter.radius);
     let deviation = (f64::from(filter.radius) / 2.0).max(1e-3);
     let points = &lit.surfaces.points;
     let filtered = |pixel: usize| {
-        let Some(own) = &points[pixel] else { return DVec3::ZERO };
+        let Some(own) = &points[pixel] else { return Received::default() };
         let (x, y) = (pixel as i64 % width, pixel as i64 / width);
         let mut sum = Estimate::default();
         for v in (y - radius).max(0)..=(y + radius).min(height - 1) {
@@ -149,11 +182,10 @@ pub(super) fn ratio(lit: &Lit, estimates: &[Estimate], unshadowed: &[DVec3], fil
                 sum.unshadowed += weight * estimates[index].unshadowed;
             }
         }
-        let share = |channel: usize| match sum.unshadowed[channel] {
-            whole if whole > 0.0 => sum.shadowed[channel] / whole,
-            _ => 0.0,
-        };
-        unshadowed[pixel] * DVec3::new(share(0), share(1), share(2))
+        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        let shares =
+            |part: DVec3, whole: DVec3| DVec3::from_array([0, 1, 2].map(|index| share(part[index], whole[index])));
+        unshadowed[pixel].with(sum.shadowed.with(sum.unshadowed, shares), |light, share| light * share)
     };
     (0..points.len()).into_par_iter().map(filtered).collect()
 }

@@ -51,10 +51,28 @@ impl Tabulated {
     }
 }
 
+/// The numbers that a table of discrete inputs has in each of its states, in the order of the states.
+///
+/// # Errors
+/// When it needs more than that.
+pub(super) fn numbers(table: &'static BuiltIn) -> Result<Vec<Vec<f64>>, Failure> {
+    let program = table.program()?;
+    let wrong = || {
+        let message = format!("`{}` has other inputs than levels", table.name);
+        Failure::bare(table.name, Diagnostic::error(codes::NOT_APPLICABLE, message))
+    };
+    let mut interpreter = Interpreter::<f64>::new(program);
+    (0..program.states.count()).map(|state| values(&mut interpreter, program, state).ok_or_else(wrong)).collect()
+}
+
 fn result(program: &Program, state: usize) -> Option<Vec<u8>> {
+    let values = values(&mut Interpreter::new(program), program, state)?;
+    Some(values.into_iter().map(|value| value as u8).collect())
+}
+
+fn values(interpreter: &mut Interpreter<'_, f64>, program: &Program, state: usize) -> Option<Vec<f64>> {
     let mut levels = vec![0; program.inputs.len()];
     program.states.write(state, &mut levels);
     let point: Vec<Option<Value>> = levels.iter().map(|level| Some(Value::Level(*level))).collect();
-    let outcome = Interpreter::<f64>::new(program).evaluate(&point).ok()?;
-    Some(outcome.values.iter().map(|value| *value as u8).collect())
+    Some(interpreter.evaluate(&point).ok()?.values)
 }

@@ -31,6 +31,12 @@ impl Viewpoint {
         rounded(((at - self.place) * self.scale).to_array())
     }
 
+    /// The height of the point above a plane with a unit normal, by a place in it.
+    #[cfg(feature = "gpu")]
+    pub(super) fn height(&self, normal: DVec3, at: DVec3) -> f64 {
+        normal.dot(self.place - at)
+    }
+
     /// A direction with a length.
     pub(super) fn along<T: Scalar>(&self, vector: DVec3) -> Vector<T> {
         rounded((vector * self.scale).to_array())

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::entry::SEED;
+use super::super::entry::{FACTOR, SEED};
 use super::super::lit::Lit;
 use super::super::picture::fractions;
 #[cfg(feature = "gpu")]
@@ -188,12 +188,15 @@ impl<'s> Searched<'s> {
         let lit = frame.shared("searched", || {
             let (width, height) = frame.size();
             let surfaces = Surfaces::new(frame.scene, &rays, width, height);
-            Ok(Lit::of(frame, DISCONTINUITY.name())?.with_surfaces(Arc::new(surfaces)))
+            Lit::of(frame, DISCONTINUITY.name())?.with_surfaces(Arc::new(surfaces))
         })?;
         let machine = match frame.on {
+            // The shader knows no gloss.
             #[cfg(feature = "gpu")]
-            Executor::Gpu(gpu) => Machine::Gpu(Box::new(Searching::new(gpu)?)),
-            Executor::Cpu => Machine::Cpu,
+            Executor::Gpu(gpu) if lit.glosses.iter().all(Option::is_none) => {
+                Machine::Gpu(Box::new(Searching::new(gpu)?))
+            }
+            _ => Machine::Cpu,
         };
         Ok(Self {
             machine,
@@ -258,10 +261,11 @@ impl<'s> Searched<'s> {
 impl<'s> Prepared<'s> for Searched<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
         let pixels = self.pixels(progress)?;
-        let points = self.lit.surfaces.points.iter();
-        let sent = points.zip(&pixels.received).map(|(point, received)| self.lit.sent(point.as_ref(), *received));
+        let sent = pixels.received.iter().enumerate().map(|(pixel, received)| self.lit.sent(pixel, *received));
+        let factors = pixels.received.iter().map(|received| received.factor as f32).collect();
         let rendered = Rendered::default()
             .with(LIGHT, Samples::Colours(sent.map(|light| light.as_vec3().to_array()).collect()))
+            .with(FACTOR, Samples::Numbers(factors))
             .with(
                 CONFIGURATION,
                 Samples::Counts(pixels.configuration.iter().map(|found| found.unwrap_or(NONE)).collect()),

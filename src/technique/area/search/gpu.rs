@@ -10,7 +10,8 @@ use glam::{DVec3, UVec2, Vec3};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::builder::build_bvh2_from_tris;
 
-use super::super::gpu::{SurfaceRow, light_rows};
+use super::super::gpu::world::{CornerRow, halves};
+use super::super::received::Received;
 use super::picture::{Picture, Pixels};
 use super::{Options, Rule};
 use crate::diag::Failure;
@@ -20,7 +21,8 @@ use crate::gpu::timing::Stopwatch;
 use crate::gpu::{Buffer, Gpu, laid_out};
 use crate::plan::{Plan, Shape};
 use crate::program::Program;
-use crate::scene::rays::Rays;
+use crate::scene::light::Polygon;
+use crate::scene::rays::{Rays, SurfacePoint};
 use crate::scene::round::Round;
 use crate::skeleton;
 use crate::technique::tables::{
@@ -29,7 +31,7 @@ use crate::technique::tables::{
 };
 
 /// Bytes of a `Found` of the skeleton.
-const FOUND: u64 = 32;
+const FOUND: u64 = 48;
 /// Bytes of an `Edge` of the skeleton.
 const EDGE: u64 = 16;
 
@@ -92,7 +94,7 @@ impl<'g> Searching<'g> {
         let (gpu, lit) = (self.gpu, picture.lit);
         let [width, height] = [lit.surfaces.width, lit.surfaces.height];
         let (lights, corners) = light_rows(&lit.lights);
-        let World { nodes, faces, solids, counts, close } = World::new(picture.rays);
+        let Casters { nodes, faces, solids, counts, close } = Casters::new(picture.rays);
         let surfaces: Vec<SurfaceRow> =
             lit.surfaces.points.iter().map(|point| SurfaceRow::of(point.as_ref())).collect();
         let Options { rays, tolerance, gap, spacing, rule } = picture.options;
@@ -152,12 +154,18 @@ impl<'g> Searching<'g> {
             self.gpu.submit(|encoder| self.compute.encode(encoder, run, placed.work, 1, None));
         }
         let count = picture.lit.surfaces.points.len();
-        let rows = bytemuck::pod_collect_to_vec::<u8, [u32; 8]>;
-        let rows: Vec<[u32; 8]> = self.gpu.read_buffer(&placed.found, FOUND * count as u64, rows)?;
+        let rows = bytemuck::pod_collect_to_vec::<u8, [u32; 12]>;
+        let rows: Vec<[u32; 12]> = self.gpu.read_buffer(&placed.found, FOUND * count as u64, rows)?;
         let mut all = Pixels::new(count);
         let mut beyond = Vec::new();
-        for (pixel, [x, y, z, fraction, lights, configuration, tests, overflow]) in rows.into_iter().enumerate() {
-            all.received[pixel] = Vec3::from_array([x, y, z].map(f32::from_bits)).as_dvec3();
+        for (pixel, [x, y, z, factor, fraction, lights, configuration, tests, overflow, ..]) in
+            rows.into_iter().enumerate()
+        {
+            all.received[pixel] = Received {
+                factor: f64::from(f32::from_bits(factor)),
+                diffuse: Vec3::from_array([x, y, z].map(f32::from_bits)).as_dvec3(),
+                glossy: DVec3::ZERO,
+            };
             if lights > 0 {
                 all.fraction[pixel] = f64::from(f32::from_bits(fraction)) / f64::from(lights);
             }
@@ -202,6 +210,47 @@ struct FrameRow {
     close: f32,
 }
 
+/// A `Light` of the skeleton.
+#[derive(ShaderType)]
+struct LightRow {
+    colour: Vec3,
+    first: u32,
+    count: u32,
+    two_sided: u32,
+}
+
+/// A `Surface` of the skeleton.
+#[derive(ShaderType, Default)]
+struct SurfaceRow {
+    high: Vec3,
+    seen: u32,
+    low: Vec3,
+    normal: Vec3,
+}
+
+impl SurfaceRow {
+    fn of(point: Option<&SurfacePoint>) -> Self {
+        let Some(point) = point else { return Self::default() };
+        let (high, low) = halves(point.place);
+        Self { high, seen: 1, low, normal: point.smooth_normal.as_vec3() }
+    }
+}
+
+/// Lights, and the corners of all of them.
+fn light_rows(lights: &[Polygon]) -> (Vec<LightRow>, Vec<CornerRow>) {
+    let (mut rows, mut corners) = (Vec::new(), Vec::new());
+    for light in lights {
+        rows.push(LightRow {
+            colour: Vec3::from_array(light.colour.map(|channel| channel as f32)),
+            first: corners.len() as u32,
+            count: light.corners.len() as u32,
+            two_sided: light.two_sided.into(),
+        });
+        corners.extend(light.corners.iter().copied().map(halves).map(|(high, low)| CornerRow { high, low }));
+    }
+    (rows, corners)
+}
+
 /// A `Node` of the skeleton.
 #[derive(ShaderType, Default)]
 struct NodeRow {
@@ -229,7 +278,7 @@ struct SolidRow {
 }
 
 /// What rays are tested against.
-struct World {
+struct Casters {
     nodes: Vec<NodeRow>,
     faces: Vec<FaceRow>,
     solids: Vec<SolidRow>,
@@ -242,7 +291,7 @@ struct World {
 /// Parts of the largest coordinate within which single precision knows a place on a surface.
 const CLOSE: f64 = 2e-6;
 
-impl World {
+impl Casters {
     fn new(rays: &Rays) -> Self {
         let single = |place: DVec3| glam::Vec3A::from(place.as_vec3());
         let triangles: Vec<obvhs::triangle::Triangle> = rays

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::super::lit::Lit;
 use super::super::point::Query;
+use super::super::received::Received;
 use super::super::sampling::Stream;
 use super::point::{Batch, Finder, Found};
 use super::{Edge, Options};
@@ -29,8 +30,8 @@ const BAND: usize = 16;
 /// The results for the pixels of a picture, row by row from the top.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Pixels {
-    /// The sum of the form factors of lights, each times its radiance.
-    pub(super) received: Vec<DVec3>,
+    /// The light that arrives.
+    pub(super) received: Vec<Received>,
     /// The mean of the lights' visible fractions; 1 where no light is seen at all.
     pub(super) fraction: Vec<f64>,
     /// The configuration of the first triangle of the first light, by its number in `triangle_configuration`.
@@ -43,7 +44,7 @@ impl Pixels {
     /// Pixels where nothing is seen.
     pub(super) fn new(count: usize) -> Self {
         Self {
-            received: vec![DVec3::ZERO; count],
+            received: vec![Received::default(); count],
             fraction: vec![1.0; count],
             configuration: vec![None; count],
             tests: vec![0; count],
@@ -128,7 +129,7 @@ impl Picture<'_> {
     pub(super) fn search_again(&self, some: &[usize], all: &mut Pixels) -> Result<(), Failure> {
         let portions = some.chunks(64).map(<[usize]>::to_vec).collect();
         for part in self.search(portions, Neighbour::None, &|_| {})? {
-            part.pixels.iter().for_each(|pixel| all.received[*pixel] = DVec3::ZERO);
+            part.pixels.iter().for_each(|pixel| all.received[*pixel] = Received::default());
             self.take(all, &part);
         }
         Ok(())
@@ -191,6 +192,7 @@ impl Picture<'_> {
         tests: &Tests<'_>,
     ) -> Vec<Edge> {
         let polygon = &self.lit.lights[light];
+        let at = (pixel[1] * self.lit.surfaces.width + pixel[0]) as usize;
         let query = Query {
             light: &polygon.corners,
             two_sided: polygon.two_sided,
@@ -199,7 +201,7 @@ impl Picture<'_> {
             normal: point.smooth_normal,
             fraction: true,
             occluders: Vec::new().into(),
-            shape: None,
+            shape: self.lit.sheen(at).map(|sheen| sheen.shape),
         };
         let scene = finder.seen(&query);
         let mut stream = Stream::new(pixel, light as u32, self.seed);
@@ -216,7 +218,8 @@ impl Picture<'_> {
             all.configuration[*pixel] = found.first().and_then(Found::first_configuration);
             all.tests[*pixel] = found.iter().map(|found| found.tests).sum();
             for (found, light) in found.iter().zip(&self.lit.lights) {
-                all.received[*pixel] += found.answer.form_factor * DVec3::from_array(light.colour);
+                let (glossy, _) = found.answer.shaped.unwrap_or_default();
+                all.received[*pixel] += Received::of(light.colour, [found.answer.form_factor, glossy]);
             }
         }
     }

@@ -1,8 +1,11 @@
 //! The method against closed forms, against an exact program, and against itself.
 
+#[cfg(feature = "gpu")]
+mod device;
 mod exact;
 mod pictures;
 mod scenes;
+mod sweep;
 
 use std::f64::consts::PI;
 

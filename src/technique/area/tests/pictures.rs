@@ -2,6 +2,7 @@
 
 use super::super::lit::Lit;
 use super::super::picture::{Pixels, peeled};
+use super::super::received::Received;
 use super::super::sampling::estimates;
 use crate::scene::Scene;
 use crate::scene::light::LightKind;
@@ -37,12 +38,17 @@ fn single_precision_is_within_a_millionth_at_every_pixel() {
         let limit = 1e-6 * brightest(&lit) * lit.lights.len() as f64;
         let mut shadowed = 0;
         for (pixel, (wide_light, narrow_light)) in wide.received.iter().zip(&narrow.received).enumerate() {
-            let apart = (*wide_light - *narrow_light).abs().max_element();
-            assert!(apart < limit, "{} {pixel}: {wide_light} {narrow_light}", scene.name);
-            assert!(wide_light.is_finite() && wide_light.min_element() >= 0.0, "{} {pixel}", scene.name);
             let whole = wide.unshadowed[pixel];
-            assert!(wide_light.cmple(whole + 1e-9).all(), "{} {pixel}: {wide_light} of {whole}", scene.name);
-            shadowed += usize::from((whole - *wide_light).max_element() > 1e-3);
+            let ways = [
+                (wide_light.diffuse, narrow_light.diffuse, whole.diffuse),
+                (wide_light.glossy, narrow_light.glossy, whole.glossy),
+            ];
+            for (wide, narrow, whole) in ways {
+                assert!((wide - narrow).abs().max_element() < limit, "{} {pixel}: {wide} {narrow}", scene.name);
+                assert!(wide.is_finite() && wide.min_element() >= 0.0, "{} {pixel}", scene.name);
+                assert!(wide.cmple(whole + 1e-9).all(), "{} {pixel}: {wide} of {whole}", scene.name);
+            }
+            shadowed += usize::from((whole - *wide_light).diffuse.max_element() > 1e-3);
         }
         assert!(shadowed > 50, "{}: {shadowed}", scene.name);
     }
@@ -50,17 +56,21 @@ fn single_precision_is_within_a_millionth_at_every_pixel() {
 
 #[test]
 fn many_rays_come_close_to_the_exact_light() {
-    for name in ["table", "abutting"] {
+    for (name, limit) in [("table", 0.01), ("abutting", 0.01), ("grazing", 0.1)] {
         let scene = Scene::open(name).unwrap_or_else(|error| panic!("{error}"));
         let (frame, lit) = lit(&scene);
         let exact = peeled::<f64>(&lit, &|_| {}).unwrap_or_else(|error| panic!("{error}"));
         let error = |samples: u32| {
             let rays = estimates(&lit, &frame.rays, samples, 7, &|_| {});
-            let squares = rays.iter().zip(&exact.received).map(|(ray, light)| (ray.shadowed - *light).length_squared());
+            let square = |light: Received| light.diffuse.length_squared() + light.glossy.length_squared();
+            // Beside a light that stands on the floor a few rays bring almost all of it.
+            let is_apart = |pixel: usize| lit.surfaces.points[pixel].is_none_or(|point| point.place.z > -1.0);
+            let both = rays.iter().zip(&exact.received).enumerate().filter(|(pixel, _)| is_apart(*pixel));
+            let squares = both.map(|(_, (ray, light))| square(ray.shadowed - *light));
             (squares.sum::<f64>() / rays.len() as f64).sqrt() / brightest(&lit)
         };
         let (few, many) = (error(16), error(1024));
         // Stratified samples of edges: the error falls faster than with the square root of their number.
-        assert!(few < 0.01 && many < few / 8.0, "{name}: {few} {many}");
+        assert!(few < limit && many < few / 8.0, "{name}: {few} {many}");
     }
 }

@@ -1,27 +1,12 @@
-// Light of polygons at surfaces, past polygons, boxes and convex meshes: what `peel.rs` and
-// `occluder.rs` do, a thread for each pixel and a workgroup for each tile.
+// Light of polygons past polygons, boxes and convex meshes: what `peel.rs` and `occluder.rs` do, a
+// thread for each point and light. `picture.wgsl` and `points.wgsl` ask it for what they need.
 //
 // What is decided comes from the tables: how an edge is clipped (`clip_step`), the silhouettes of
 // boxes (`box_silhouette`) and meshes (`edge_silhouette`), and what an edge adds to the light
 // (`edge_integral`). Positions come as two numbers each, the second one what rounding the first
 // one lost, so that a position relative to a point is as good as one that was rounded last.
 //
-// Memory is bounded: a pixel that would need more says so, and the host computes it.
-
-struct Frame {
-    size: vec2<u32>,
-    lights: u32,
-    // Surfaces nearer to a point than this are taken to go through it.
-    blur: f32,
-}
-
-struct Light {
-    colour: vec3<f32>,
-    // Its corners.
-    first: u32,
-    count: u32,
-    two_sided: u32,
-}
+// Memory is bounded: a point that would need more says so, and the host computes it.
 
 struct Corner {
     high: vec3<f32>,
@@ -52,31 +37,11 @@ struct Face {
     corner: u32,
 }
 
-struct Surface {
-    high: vec3<f32>,
-    // 0 where no surface is seen.
-    seen: u32,
-    low: vec3<f32>,
-    normal: vec3<f32>,
-}
-
-struct Lit {
-    received: vec3<f32>,
-    pieces: u32,
-    clips: u32,
-    // 1 where more memory or more steps were needed than there are.
-    overflow: u32,
-}
-
-@group(0) @binding(0) var<uniform> frame: Frame;
-@group(0) @binding(1) var<storage, read> lights: array<Light>;
-@group(0) @binding(2) var<storage, read> corners: array<Corner>;
-@group(0) @binding(3) var<storage, read> bodies: array<Body>;
-@group(0) @binding(4) var<storage, read> faces: array<Face>;
-// For each light and each tile where its list of bodies begins and how long it is; the lists; the edges.
-@group(0) @binding(5) var<storage, read> words: array<u32>;
-@group(0) @binding(6) var<storage, read> surfaces: array<Surface>;
-@group(0) @binding(7) var<storage, read_write> lit: array<Lit>;
+@group(0) @binding(0) var<storage, read> corners: array<Corner>;
+@group(0) @binding(1) var<storage, read> bodies: array<Body>;
+@group(0) @binding(2) var<storage, read> faces: array<Face>;
+// Lists of bodies, and the edges of meshes.
+@group(0) @binding(3) var<storage, read> words: array<u32>;
 
 // The kinds of bodies.
 const POLYGON = 0u;
@@ -84,7 +49,7 @@ const POLYGON = 0u;
 const CROSSING = 1u;
 const BOX = 2u;
 const MESH = 3u;
-// Too large for here: the host computes the pixels that it matters to.
+// Too large for here: the host computes what it matters to.
 const HOST = 4u;
 
 // Corners of a polygon, cones that have cut what a piece is left of, and bodies between a point and a light.
@@ -115,16 +80,26 @@ struct Entry {
     planes: u32,
 }
 
-// Polygons have numbers: those of the stack, and a few to work with.
+// Polygons have numbers: those of the stack, a few to work with, and the light.
 const CURRENT = DEPTH;
 const SPARE = DEPTH + 1u;
 const SCRATCH = DEPTH + 2u;
-const POLYGONS = DEPTH + 4u;
+const LIGHT = DEPTH + 4u;
+const POLYGONS = DEPTH + 5u;
 var<private> pool: array<vec3<f32>, POLYGONS * CORNERS>;
 var<private> counts: array<u32, POLYGONS>;
 
+// What is added up of the pieces: areas, form factors, form factors of what a transform makes of them.
+const AREAS = 1u;
+const FACTORS = 2u;
+const SHAPED = 4u;
+
+// The point. Surfaces nearer to it than `blur` are taken to go through it.
 var<private> place: Corner;
 var<private> normal: vec3<f32>;
+var<private> blur: f32;
+// The rows of the transform for SHAPED.
+var<private> rows: array<vec3<f32>, 3>;
 // Normal of the light's plane towards the point, and its product with any point of the plane.
 var<private> light_normal: vec3<f32>;
 var<private> light_level: f32;
@@ -132,7 +107,11 @@ var<private> is_far: bool;
 // The bodies that matter, each with what was found out about it.
 var<private> live: array<Entry, LIVE>;
 var<private> live_count: u32;
+// The sums, and those of AREAS, FACTORS and SHAPED that are wanted.
+var<private> wanted: u32;
+var<private> visible: f32;
 var<private> form_factor: f32;
+var<private> shaped: f32;
 var<private> pieces: u32;
 var<private> clips: u32;
 var<private> rounds: u32;
@@ -165,6 +144,13 @@ fn push(polygon: u32, at: vec3<f32>) {
         counts[polygon] = count + 1u;
     } else {
         overflow = true;
+    }
+}
+
+fn copy(polygon: u32, to: u32) {
+    counts[to] = 0u;
+    for (var index = 0u; index < counts[polygon]; index += 1u) {
+        push(to, pool[polygon * CORNERS + index]);
     }
 }
 
@@ -216,21 +202,46 @@ fn area(polygon: u32) -> vec3<f32> {
     return 0.5 * sum;
 }
 
-// The form factor of a polygon above the horizon.
-fn integrate(polygon: u32) -> f32 {
-    if (is_far) {
+fn transformed(at: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(rows[0], at), dot(rows[1], at), dot(rows[2], at));
+}
+
+// The form factor of a polygon above the horizon, or of what the transform makes of it.
+fn integrate(polygon: u32, is_shaped: bool) -> f32 {
+    if (is_far && !is_shaped) {
         let c = middle(polygon);
         let a = area(polygon);
         return abs(edge_integral_small(c.x, c.y, c.z, a.x, a.y, a.z, normal.x, normal.y, normal.z));
     }
+    let up = select(normal, vec3<f32>(0.0, 0.0, 1.0), is_shaped);
     var sum = 0.0;
     var u = pool[polygon * CORNERS + counts[polygon] - 1u];
+    if (is_shaped) {
+        u = transformed(u);
+    }
     for (var index = 0u; index < counts[polygon]; index += 1u) {
-        let v = pool[polygon * CORNERS + index];
-        sum += edge_integral_term(u.x, u.y, u.z, v.x, v.y, v.z, normal.x, normal.y, normal.z);
+        var v = pool[polygon * CORNERS + index];
+        if (is_shaped) {
+            v = transformed(v);
+        }
+        sum += edge_integral_term(u.x, u.y, u.z, v.x, v.y, v.z, up.x, up.y, up.z);
         u = v;
     }
     return abs(sum) / TAU;
+}
+
+// Adds a polygon that nothing hides.
+fn add(polygon: u32) {
+    pieces += 1u;
+    if ((wanted & AREAS) != 0u) {
+        visible += length(area(polygon));
+    }
+    if ((wanted & FACTORS) != 0u) {
+        form_factor += integrate(polygon, false);
+    }
+    if ((wanted & SHAPED) != 0u) {
+        shaped += integrate(polygon, true);
+    }
 }
 
 // What is found out about a body once for a point and a light: 0 if it hides nothing, 1 if it has
@@ -247,7 +258,7 @@ fn look(index: u32) -> vec2<u32> {
             let half = corners[start + 1u + axis].high;
             let size = length(half);
             let at = -dot(centre, half) / (size * size);
-            let slack = NOISE * (1.0 + length(centre) / size) + frame.blur / size;
+            let slack = NOISE * (1.0 + length(centre) / size) + blur / size;
             is_outside = is_outside || abs(at) > 1.0 + slack;
             if (at >= 1.0 - slack) {
                 touches |= 1u << axis;
@@ -269,7 +280,7 @@ fn look(index: u32) -> vec2<u32> {
     if (kind == MESH) {
         for (var face = bodies[index].faces; face < bodies[index].faces + bodies[index].face_count; face += 1u) {
             let at = corner(faces[face].corner);
-            if (-dot(faces[face].normal, at) > NOISE * max(length(at), bodies[index].radius) + frame.blur) {
+            if (-dot(faces[face].normal, at) > NOISE * max(length(at), bodies[index].radius) + blur) {
                 return vec2<u32>(1u, 0u);
             }
         }
@@ -291,7 +302,7 @@ fn look(index: u32) -> vec2<u32> {
     centre /= f32(count);
     let height = 0.5 * dot(sum, centre);
     // Seen edge-on.
-    if (abs(height) <= (NOISE * length(centre) + frame.blur) * 0.5 * length(sum)) {
+    if (abs(height) <= (NOISE * length(centre) + blur) * 0.5 * length(sum)) {
         return vec2<u32>(0u);
     }
     return vec2<u32>(1u, u32(height > 0.0));
@@ -443,13 +454,9 @@ fn peel() {
             if (rounds > MOST_ROUNDS) {
                 overflow = true;
             } else if (body == live_count) {
-                pieces += 1u;
-                form_factor += integrate(CURRENT);
+                add(CURRENT);
             } else if (depth < DEPTH) {
-                counts[spare] = 0u;
-                for (var i = 0u; i < counts[CURRENT]; i += 1u) {
-                    push(spare, pool[CURRENT * CORNERS + i]);
-                }
+                copy(CURRENT, spare);
                 // The level takes the spare polygon, and the one that waits at its place becomes spare.
                 let waiting = stack[depth].x;
                 stack[depth] = vec3<u32>(spare, body, 0u);
@@ -493,9 +500,9 @@ fn is_outside(index: u32) -> bool {
     if (light_level - dot(light_normal, centre) > reach * length(light_normal)) {
         return true;
     }
-    var u = pool[CURRENT * CORNERS + counts[CURRENT] - 1u];
-    for (var i = 0u; i < counts[CURRENT]; i += 1u) {
-        let v = pool[CURRENT * CORNERS + i];
+    var u = pool[LIGHT * CORNERS + counts[LIGHT] - 1u];
+    for (var i = 0u; i < counts[LIGHT]; i += 1u) {
+        let v = pool[LIGHT * CORNERS + i];
         let plane = cross(v, u);
         if (-dot(plane, centre) > reach * length(plane)) {
             return true;
@@ -505,49 +512,42 @@ fn is_outside(index: u32) -> bool {
     return false;
 }
 
-// The form factor of a light at the point.
-fn of_light(light: u32, list: u32, count: u32) -> f32 {
-    form_factor = 0.0;
-    counts[SCRATCH] = 0u;
+// Takes a light as the point sees it into the polygon LIGHT; false if the point lies in its plane or behind it.
+fn see_light(first: u32, count: u32) -> bool {
+    counts[LIGHT] = 0u;
     var reach = 0.0;
-    for (var index = 0u; index < lights[light].count; index += 1u) {
-        let at = corner(lights[light].first + index);
-        push(SCRATCH, at);
+    for (var index = 0u; index < count; index += 1u) {
+        let at = corner(first + index);
+        push(LIGHT, at);
         reach = max(reach, length(at));
     }
-    light_normal = area(SCRATCH);
-    let centre = middle(SCRATCH);
+    light_normal = area(LIGHT);
+    let centre = middle(LIGHT);
     light_level = dot(light_normal, centre);
-    if (abs(light_level) <= 1e-7 * length(light_normal) * reach) {
-        return 0.0;
-    }
-    let is_behind = light_level > 0.0;
-    if (is_behind && lights[light].two_sided == 0u) {
-        return 0.0;
-    }
-    if (is_behind) {
-        light_normal = -light_normal;
-        light_level = -light_level;
-    }
-    // Counter-clockwise as seen from the point.
-    counts[CURRENT] = 0u;
     var extent = 0.0;
-    for (var index = 0u; index < counts[SCRATCH]; index += 1u) {
-        let at = pool[SCRATCH * CORNERS + select(index, counts[SCRATCH] - 1u - index, is_behind)];
-        push(CURRENT, at);
-        extent = max(extent, length(at - centre));
+    for (var index = 0u; index < count; index += 1u) {
+        extent = max(extent, length(pool[LIGHT * CORNERS + index] - centre));
     }
     is_far = extent < 1e-2 * length(centre);
+    return light_level < -1e-7 * length(light_normal) * reach;
+}
+
+// Finds out which bodies of a list can hide some of the light; false if the point is inside of one.
+fn see_bodies(list: u32, count: u32) -> bool {
     live_count = 0u;
     for (var index = 0u; index < count; index += 1u) {
         let body = words[list + index];
-        rounds += 2u * counts[CURRENT];
+        rounds += 2u * counts[LIGHT];
+        if (rounds > MOST_ROUNDS) {
+            overflow = true;
+            return true;
+        }
         if (is_outside(body)) {
             continue;
         }
         let found = look(body);
         if (found.x == 2u) {
-            return 0.0;
+            return false;
         }
         if (found.x == 1u) {
             if (live_count < LIVE) {
@@ -558,37 +558,26 @@ fn of_light(light: u32, list: u32, count: u32) -> f32 {
             }
         }
     }
-    clip(CURRENT, normal, false, SCRATCH);
-    counts[CURRENT] = 0u;
-    for (var index = 0u; index < counts[SCRATCH]; index += 1u) {
-        push(CURRENT, pool[SCRATCH * CORNERS + index]);
+    return true;
+}
+
+// Makes the part of the light above the horizon the current polygon.
+fn above_horizon() {
+    clip(LIGHT, normal, false, CURRENT);
+}
+
+// Leaves of the current polygon what the transform takes to directions above the horizon.
+fn above_transformed_horizon() {
+    if (counts[CURRENT] != 0u) {
+        clip(CURRENT, rows[2], false, SCRATCH);
+        copy(SCRATCH, CURRENT);
     }
+}
+
+// Adds up what is wanted of the visible pieces of the current polygon.
+fn add_up(what: u32) {
+    wanted = what;
     if (counts[CURRENT] != 0u && !overflow) {
         peel();
     }
-    return form_factor;
-}
-
-@compute @workgroup_size(8, 8) fn area_light(
-    @builtin(global_invocation_id) id: vec3<u32>,
-    @builtin(workgroup_id) tile: vec3<u32>,
-) {
-    if (id.x >= frame.size.x || id.y >= frame.size.y) {
-        return;
-    }
-    let pixel = id.y * frame.size.x + id.x;
-    var result: Lit;
-    if (surfaces[pixel].seen != 0u) {
-        place = Corner(surfaces[pixel].high, surfaces[pixel].low);
-        normal = surfaces[pixel].normal;
-        let tiles = (frame.size + vec2<u32>(7u)) / 8u;
-        for (var light = 0u; light < frame.lights && !overflow; light += 1u) {
-            let entry = 2u * ((light * tiles.y + tile.y) * tiles.x + tile.x);
-            result.received += lights[light].colour * of_light(light, words[entry], words[entry + 1u]);
-        }
-    }
-    result.pieces = pieces;
-    result.clips = clips;
-    result.overflow = u32(overflow);
-    lit[pixel] = result;
 }
