@@ -445,10 +445,11 @@ impl Program {
         self.inputs.iter().enumerate().map(|(i, input)| (InputId::new(i), input))
     }
 
-    /// Returns whether its states choose between so many constants that no code should write them out.
+    /// Returns whether its states choose between so many constants that no code should write them out: whether it is a
+    /// number or a vector looked up.
     pub fn is_data(&self) -> bool {
         let constants = self.pool.nodes().filter(|node| matches!(node, Node::Const(_)));
-        self.function.is_none() && constants.count() > MAX_WRITTEN
+        self.function.is_none() && self.output.is_real() && constants.count() > MAX_WRITTEN
     }
 
     /// The levels of a discrete input.

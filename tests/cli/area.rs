@@ -180,6 +180,11 @@ fn options_of_the_search_are_for_the_search() {
         let said = place.run(&format!("area --input points.json --method search {wrong}"));
         assert_eq!(said.code, Some(2), "{wrong}");
     }
+    place.file("points.json", &format!("{{{LIGHT}}}"));
+    let said = place.run("area --input points.json --method search --backend gpu");
+    assert!(said.code == Some(2) && said.err.contains("the search of points runs on the CPU"), "{}", said.err);
+}
+
 #[test]
 fn a_gpu_gives_the_same_fields_in_single_precision_and_refuses_double() {
     let place = Place::new();
@@ -215,4 +220,56 @@ fn a_gpu_gives_the_same_fields_in_single_precision_and_refuses_double() {
     let said = place.run("area --input points.json --backend gpu");
     assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
     assert!(said.err.contains("id 1"), "{}", said.err);
+}
+
+#[test]
+fn quality_of_area_lights_is_that_of_form_factors_beside_the_time() {
+    let place = Place::new();
+    let command = "quality --scenes table --size 32x18 --rounds 1 --backend cpu";
+    let said = place.run(&format!(
+        "{command} --techniques peel,area_samples,area_unshadowed --rays 1,64 --message-format json --plot times.svg"
+    ));
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let found: Value = serde_json::from_str(&said.out).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    let error = |technique: &str, rays: Option<u64>| {
+        let row = rows.iter().find(|row| row["technique"] == technique && row["rays"].as_u64() == rays).unwrap();
+        assert!(number(row, "ms") > 0.0 && number(row, "mae") <= number(row, "rmse"), "{row}");
+        assert!(number(row, "rmse") <= number(row, "most"), "{row}");
+        number(row, "rmse")
+    };
+    assert_eq!(rows.len(), 4);
+    assert!(error("peel", None) < 1e-7);
+    let [few, many, none] =
+        [error("area_samples", Some(1)), error("area_samples", Some(64)), error("area_unshadowed", None)];
+    assert!(many < few / 4.0 && many < none / 4.0, "{few} {many} {none}");
+    assert!(std::fs::read_to_string(place.path("times.svg")).unwrap().contains("RMSE of the form factor"));
+    let said = place.run(&format!("{command} --techniques peel,area_samples --rays 1,16"));
+    assert!(said.out.contains("RMSE 0.005: peel "), "{}", said.out);
+    let bad = [
+        ("--techniques peel,rsmss", "needs a technique with form factors of lights"),
+        ("--techniques area_exact", "no true picture is known"),
+        ("--techniques peel --plot times.txt", "no kind of plot"),
+        ("--techniques area_samples --rays 0", "0 is not in 1..=65536"),
+    ];
+    for (arguments, expected) in bad {
+        let said = place.run(&format!("{command} {arguments}"));
+        assert!(said.code == Some(2) && said.out.is_empty() && said.err.contains(expected), "{}", said.err);
+    }
+}
+
+#[test]
+fn the_cost_of_vertices_is_measured_and_fitted() {
+    let place = Place::new();
+    let said = place
+        .run("vertices --size 16x12 --rounds 1 --warm-up 0 --backend cpu --json cost.json --plot cost.svg -o grid.png");
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert!(said.out.contains("per vertex of a light: ") && said.out.contains("R² "), "{}", said.out);
+    let found: Value = serde_json::from_slice(&std::fs::read(place.path("cost.json")).unwrap()).unwrap();
+    assert_eq!((found["scenes"].as_array().unwrap().len(), found["fits"].as_array().unwrap().len()), (12 + 5 + 12, 3));
+    assert!(found["fits"].as_array().unwrap().iter().all(|fit| number(fit, "r_squared") <= 1.0 + 1e-9));
+    assert!(std::fs::read_to_string(place.path("cost.svg")).unwrap().contains("vertices of the light"));
+    assert!(image::open(place.path("grid.png")).unwrap().width() > 4 * 16);
+    let said = place.run("vertices --plot cost.txt");
+    assert!(said.code == Some(2) && said.err.contains("no kind of plot"), "{}", said.err);
 }

@@ -193,7 +193,8 @@ fn least(start: [f64; 3], of: impl Fn([f64; 3]) -> f64) -> [f64; 3] {
         if 2.0 * (worst - best).abs() < (worst.abs() + best.abs()) * TOLERANCE {
             break;
         }
-        let middle: [f64; 3] = std::array::from_fn(|axis| corners[..3].iter().map(|(_, at)| at[axis]).sum::<f64>() / 3.0);
+        let middle: [f64; 3] =
+            std::array::from_fn(|axis| corners[..3].iter().map(|(_, at)| at[axis]).sum::<f64>() / 3.0);
         let along = |t: f64| {
             let place = std::array::from_fn(|axis| middle[axis] + t * (middle[axis] - at[axis]));
             (of(place), place)

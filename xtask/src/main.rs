@@ -3,6 +3,7 @@
 
 mod kill;
 mod licences;
+mod ltc;
 mod web;
 
 use std::env;
@@ -25,6 +26,8 @@ Usage: cargo xtask <task> [arguments]
   package                        build what would be published, from what would be in it
   bless                          rewrite generated/ and the snapshots from what the code does now
   errata                         write docs/errata.md: what the analyses find in tables as printed
+  ltc                            fit linearly transformed cosines for GGX: tables/ltc_ggx_*.csv; minutes,
+                                 or with `cargo run --release --package xtask -- ltc` one
   kill [TIMES [SEED [PROGRAM]]]  kill build, fmt, render and tune at random moments, 500 each if nothing else
                                  is said, and look at what they leave; PROGRAM is a built `umbrage`
   fuzz [--minutes N] [--seed S] [TARGET...]
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         "package" => package(&mut steps),
         "bless" => bless(&mut steps),
         "errata" => errata(&mut steps),
+        "ltc" => cosines(),
         "kill" => kill(&mut steps, rest),
         "fuzz" => fuzz(&mut steps, rest),
         "web" => web::run(&mut steps, root(), rest),
@@ -209,6 +213,15 @@ fn errata(steps: &mut Steps) -> Result {
     }
     command.args(["--mistakes", "1002", "--output", "docs/errata.md"]);
     steps.run("errata", command)
+}
+
+/// The data of the tables `ltc_matrix` and `ltc_albedo`.
+fn cosines() -> Result {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    ltc::run(&root.join("tables")).map_err(|error| {
+        eprintln!("error: the files cannot be written: {error}");
+        1
+    })
 }
 
 /// What commands leave that are killed.

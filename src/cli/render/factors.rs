@@ -4,13 +4,14 @@
 //! techniques are equally good. All of it is one run on one machine.
 
 use std::io::Write;
+use std::path::Path;
 use std::time::Instant;
 
 use comfy_table::{CellAlignment, Table, presets};
 use serde_json::{Value as Json, json};
 
-use super::quality::{Arguments, plots};
-use crate::cli::args::{Backend, TechniqueArgument};
+use super::plots;
+use crate::cli::args::{Backend, Machine, SettingArguments, TechniqueArgument};
 use crate::cli::messages::{Format, Report};
 use crate::cli::output::{Sink, finish_all, stdout};
 use crate::cli::progress::Progress;
@@ -26,6 +27,28 @@ use crate::technique::{self, Executor, Frame, Rendered, Technique};
 /// The errors in the form factor that times are given for.
 const LEVELS: [f64; 3] = [0.02, 0.01, 0.005];
 
+/// The order for a comparison.
+pub(super) struct Order<'a> {
+    /// Names of scenes, or scene files; none for all that have a light for all techniques.
+    pub(super) scenes: &'a [String],
+    /// The techniques; the others are compared with the first.
+    pub(super) techniques: &'a [TechniqueArgument],
+    /// Size of the pictures.
+    pub(super) size: (u32, u32),
+    /// Numbers of rays of a pixel to each light.
+    pub(super) rays: &'a [u32],
+    /// Pictures of each technique and number of rays, whose median time counts.
+    pub(super) rounds: usize,
+    /// The file for the numbers.
+    pub(super) json: Option<&'a Path>,
+    /// The file for the plot.
+    pub(super) plot: Option<&'a Path>,
+    /// The machine.
+    pub(super) machine: &'a Machine,
+    /// The settings of the techniques.
+    pub(super) settings: &'a SettingArguments,
+}
+
 /// A technique in a scene.
 struct Row {
     scene: usize,
@@ -38,26 +61,27 @@ struct Row {
 }
 
 /// Measures, then shows.
-pub(super) fn run(arguments: &Arguments, techniques: &[TechniqueArgument], report: &Report) -> Result<Outcome> {
+pub(super) fn run(order: &Order<'_>, report: &Report) -> Result<Outcome> {
+    let techniques = order.techniques;
     let has_light = |scene: &Scene| techniques.iter().all(|one| one.lights().of_scene(scene, one.name()).is_ok());
-    let scenes: Vec<Scene> = match arguments.scenes.is_empty() {
+    let scenes: Vec<Scene> = match order.scenes.is_empty() {
         true => {
             let all = Scene::names().map(Scene::open).collect::<std::result::Result<Vec<_>, _>>()?;
             all.into_iter().filter(has_light).collect()
         }
-        false => arguments.scenes.iter().map(|name| Scene::open(name)).collect::<std::result::Result<_, _>>()?,
+        false => order.scenes.iter().map(|name| Scene::open(name)).collect::<std::result::Result<_, _>>()?,
     };
-    let [json_sink, plot_sink] = Sink::several([arguments.json.as_deref(), arguments.plot.as_deref()])?;
-    let executor = arguments.machine.executor(Backend::Auto, report)?;
-    let rows = measure(arguments, techniques, &scenes, &executor)?;
-    let object = || json(arguments, &executor, &scenes, &rows);
+    let [json_sink, plot_sink] = Sink::several([order.json, order.plot])?;
+    let executor = order.machine.executor(Backend::Auto, report)?;
+    let rows = measure(order, &scenes, &executor)?;
+    let object = || json(order, &executor, &scenes, &rows);
     let mut sinks = Vec::new();
     if let Some(mut sink) = json_sink {
         writeln!(sink, "{:#}", object())?;
         sinks.push(sink);
     }
-    if let (Some(mut sink), Some(path)) = (plot_sink, &arguments.plot) {
-        sink.write_all(&plots(path, draw(techniques, &scenes, &rows))?)?;
+    if let (Some(mut sink), Some(path)) = (plot_sink, order.plot) {
+        sink.write_all(&plots::file(path, draw(techniques, &scenes, &rows))?)?;
         sinks.push(sink);
     }
     finish_all(sinks)?;
@@ -74,22 +98,18 @@ pub(super) fn run(arguments: &Arguments, techniques: &[TechniqueArgument], repor
     Ok(Outcome::Clean)
 }
 
-fn measure(
-    arguments: &Arguments,
-    techniques: &[TechniqueArgument],
-    scenes: &[Scene],
-    executor: &Executor,
-) -> std::result::Result<Vec<Row>, Failure> {
-    let rounds = arguments.rounds;
-    let pictures = |technique: &TechniqueArgument| rounds * rays(arguments, *technique).len();
+fn measure(order: &Order<'_>, scenes: &[Scene], executor: &Executor) -> std::result::Result<Vec<Row>, Failure> {
+    let techniques = order.techniques;
+    let rounds = order.rounds;
+    let pictures = |technique: &TechniqueArgument| rounds * rays(order, *technique).len();
     let pictures = 2 + techniques.iter().map(pictures).sum::<usize>();
-    let height = u64::from(arguments.size.1);
+    let height = u64::from(order.size.1);
     let progress = Progress::new(height * (pictures * scenes.len()) as u64);
     let advance = |rows| progress.advance(rows);
     let mut rows = Vec::new();
     for (scene, opened) in scenes.iter().enumerate() {
         progress.begin(&opened.name);
-        let frame = Frame::new(opened, arguments.size, executor);
+        let frame = Frame::new(opened, order.size, executor);
         progress.advance(height);
         let mut truths: Vec<(&str, Rendered)> = Vec::new();
         for technique in techniques {
@@ -99,8 +119,8 @@ fn measure(
             }
             let truth = truths.iter().find(|(known, _)| *known == name);
             let truth = truth.map_or(Ok(&[][..]), |(_, rendered)| factors(technique::from_name(name)?, rendered))?;
-            for rays in rays(arguments, *technique) {
-                let mut settings = arguments.settings.read(techniques, None)?;
+            for rays in rays(order, *technique) {
+                let mut settings = order.settings.read(techniques, None)?;
                 if let Some(rays) = rays {
                     settings.set(&SAMPLES, Value::Whole(rays));
                 }
@@ -122,9 +142,9 @@ fn measure(
 }
 
 /// The numbers of rays that a technique is measured with.
-fn rays(arguments: &Arguments, technique: &dyn Technique) -> Vec<Option<u32>> {
+fn rays(order: &Order<'_>, technique: &dyn Technique) -> Vec<Option<u32>> {
     match technique.settings().iter().any(|setting| setting.name == SAMPLES.name) {
-        true => arguments.rays.iter().map(|rays| Some(*rays)).collect(),
+        true => order.rays.iter().map(|rays| Some(*rays)).collect(),
         false => vec![None],
     }
 }
@@ -180,14 +200,14 @@ fn table(out: &mut impl Write, scene: &Scene, techniques: &[TechniqueArgument], 
     Ok(())
 }
 
-fn json(arguments: &Arguments, executor: &Executor, scenes: &[Scene], rows: &[Row]) -> Json {
+fn json(order: &Order<'_>, executor: &Executor, scenes: &[Scene], rows: &[Row]) -> Json {
     let row = |row: &Row| {
         json!({
             "scene": scenes[row.scene].name, "technique": row.technique.name(), "rays": row.rays,
             "ms": row.time * 1e3, "mae": row.error.mean, "rmse": row.error.rmse, "most": row.error.most,
         })
     };
-    let (width, height) = arguments.size;
+    let (width, height) = order.size;
     json!({
         "width": width, "height": height, "executor": executor.describe(),
         "rows": rows.iter().map(row).collect::<Vec<_>>(),
@@ -201,7 +221,7 @@ fn draw(techniques: &[TechniqueArgument], scenes: &[Scene], rows: &[Row]) -> Vec
             title: scene.title.clone(),
             x: plot::Axis { label: "ms for a picture".to_owned(), scale: plot::Scale::Log10 },
             y: plot::Axis { label: "RMSE of the form factor".to_owned(), scale: plot::Scale::Log10 },
-            size: super::quality::PLOT,
+            size: plots::PLOT,
         };
         let series = |technique: &TechniqueArgument| {
             let own = rows.iter().filter(|row| row.scene == index && row.technique == *technique);

@@ -4,6 +4,7 @@
 pub(crate) mod bench;
 mod factors;
 pub(crate) mod light;
+mod plots;
 pub(crate) mod quality;
 #[cfg(feature = "gpu")]
 pub(crate) mod vertices;

@@ -1,32 +1,31 @@
 //! `umbrage quality`: how far each technique is from the true shadow; of lights with an extent see `factors.rs`.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
+use super::{factors, plots};
 use crate::cli::args::{
     Backend, Machine, SettingArguments, TechniqueArgument, parse_map, parse_size, technique_parser,
 };
-use crate::cli::input::has_extension;
 use crate::cli::messages::{Format, Report};
 use crate::cli::output::{Sink, finish_all, stdout};
 use crate::cli::progress::Progress;
 use crate::cli::{Outcome, Result};
 use crate::diag::{Diagnostic, Failure, codes};
-use crate::picture::{self, plot};
+use crate::picture::plot;
 use crate::scene::Scene;
 use crate::technique::difference::{Difference, NEAR, Region, difference};
 use crate::technique::rendered::VALUE;
 use crate::technique::{self, Ability, Executor, Frame, Prepared, Rendered, Technique, shade};
-use crate::text::file::shown;
 
 /// Arguments of `umbrage quality`.
 #[derive(clap::Args)]
 pub(in crate::cli) struct Arguments {
     /// The scenes, names or scene files [default: all that come with Umbrage]
     #[arg(long, value_name = "SCENES", value_delimiter = ',')]
-    pub(super) scenes: Vec<String>,
+    scenes: Vec<String>,
     /// The techniques [default: all whose true visibility is known]
     #[arg(long, value_name = "TECHNIQUES", value_delimiter = ',', value_parser = technique_parser(),
           hide_possible_values = true)]
@@ -36,25 +35,25 @@ pub(in crate::cli) struct Arguments {
     shadow_maps: Vec<u32>,
     /// Size of the pictures
     #[arg(long, default_value = "640x360", value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
-    pub(super) size: (u32, u32),
+    size: (u32, u32),
     /// Rays of a pixel to each light, of techniques for lights with an extent
     #[arg(long, value_name = "RAYS", value_delimiter = ',', default_value = "1,4,16,64,256",
           value_parser = clap::value_parser!(u32).range(1..=65536))]
-    pub(super) rays: Vec<u32>,
+    rays: Vec<u32>,
     /// Pictures of each of these techniques, whose median time counts
     #[arg(long, value_name = "COUNT", default_value_t = 3,
           value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1000))]
-    pub(super) rounds: usize,
+    rounds: usize,
     /// Write the numbers as JSON as well
     #[arg(long, value_name = "FILE")]
-    pub(super) json: Option<PathBuf>,
+    json: Option<PathBuf>,
     /// Plot the errors: *.svg or *.png
     #[arg(long, value_name = "FILE")]
-    pub(super) plot: Option<PathBuf>,
+    plot: Option<PathBuf>,
     #[command(flatten)]
-    pub(super) machine: Machine,
+    machine: Machine,
     #[command(flatten)]
-    pub(super) settings: SettingArguments,
+    settings: SettingArguments,
 }
 
 /// The errors of one technique.
@@ -68,13 +67,26 @@ struct Row {
 
 /// Measures, then shows.
 pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outcome> {
-    is_plot(arguments.plot.as_deref())?;
+    plots::is_plot(arguments.plot.as_deref())?;
     let has_factors = |one: &&TechniqueArgument| one.abilities().contains(&Ability::FormFactors);
     if let Some(one) = arguments.techniques.iter().find(has_factors) {
         for other in &arguments.techniques {
             technique::require(*other, Ability::FormFactors, &format!("quality beside {one}"))?;
         }
-        return super::factors::run(arguments, &with_truth(&arguments.techniques, Ability::FormFactors)?, report);
+        return factors::run(
+            &factors::Order {
+                scenes: &arguments.scenes,
+                techniques: &with_truth(&arguments.techniques, Ability::FormFactors)?,
+                size: arguments.size,
+                rays: &arguments.rays,
+                rounds: arguments.rounds,
+                json: arguments.json.as_deref(),
+                plot: arguments.plot.as_deref(),
+                machine: &arguments.machine,
+                settings: &arguments.settings,
+            },
+            report,
+        );
     }
     let techniques = techniques(arguments)?;
     let open = |name: &str| Scene::open(name);
@@ -96,7 +108,7 @@ pub(in crate::cli) fn run(arguments: &Arguments, report: &Report) -> Result<Outc
         sinks.push(sink);
     }
     if let (Some(mut sink), Some(path)) = (plot_sink, &arguments.plot) {
-        sink.write_all(&plots(path, draw(arguments, &techniques, &scenes, &rows))?)?;
+        sink.write_all(&plots::file(path, draw(arguments, &techniques, &scenes, &rows))?)?;
         sinks.push(sink);
     }
     finish_all(sinks)?;
@@ -289,9 +301,6 @@ fn verdicts(
     Ok(())
 }
 
-/// Width and height of a plot.
-pub(super) const PLOT: (u32, u32) = (420, 320);
-
 /// A plot per scene: error near silhouettes over the size of the map.
 fn draw(arguments: &Arguments, techniques: &[TechniqueArgument], scenes: &[Scene], rows: &[Row]) -> Vec<String> {
     scenes
@@ -301,7 +310,7 @@ fn draw(arguments: &Arguments, techniques: &[TechniqueArgument], scenes: &[Scene
                 title: scene.title.clone(),
                 x: plot::Axis { label: "texels per side of the shadow map".to_owned(), scale: plot::Scale::Log2 },
                 y: plot::Axis { label: "RMSE near silhouettes".to_owned(), scale: plot::Scale::Linear },
-                size: PLOT,
+                size: plots::PLOT,
             };
             let series = |technique: &TechniqueArgument| {
                 let at = |map: &u32| Some((f64::from(*map), find(rows, scene, *map, *technique)?.near.rmse));
@@ -313,33 +322,4 @@ fn draw(arguments: &Arguments, techniques: &[TechniqueArgument], scenes: &[Scene
             plot::lines(&frame, &all)
         })
         .collect()
-}
-
-/// Refuses the name of a file that is no plot.
-pub(super) fn is_plot(path: Option<&Path>) -> std::result::Result<(), Failure> {
-    match path {
-        Some(path) if !has_extension(path, "svg") && !has_extension(path, "png") => {
-            let message = format!("`{}` is no kind of plot that can be written", shown(path));
-            let error = Diagnostic::error(codes::RENDER, message).help("name it *.svg or *.png");
-            Err(Failure::bare("", error))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Plots of the size of [`PLOT`] in rows of three, as the bytes of a file of this name.
-pub(super) fn plots(path: &Path, plots: Vec<String>) -> std::result::Result<Vec<u8>, Failure> {
-    let (width, height) = PLOT;
-    let count = plots.len() as u32;
-    let place = |(index, plot): (usize, String)| {
-        let (x, y) = (index as u32 % 3 * width, index as u32 / 3 * height);
-        plot.replacen("<svg ", &format!("<svg x=\"{x}\" y=\"{y}\" "), 1)
-    };
-    let placed: String = plots.into_iter().enumerate().map(place).collect();
-    let (width, height) = (count.min(3) * width, count.div_ceil(3) * height);
-    let svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">\
-         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>{placed}</svg>\n"
-    );
-    if has_extension(path, "png") { picture::png(&picture::raster(&svg, 1.0)?) } else { Ok(svg.into_bytes()) }
 }

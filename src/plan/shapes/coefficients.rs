@@ -248,6 +248,19 @@ mod tests {
     }
 
     #[test]
+    fn data_needs_no_branch_and_has_no_other_plan() {
+        let program = Program::read("tables/ltc_matrix.ron").unwrap_or_else(|e| panic!("{e}"));
+        assert!(program.is_data() && program.states.count() == 4096);
+        for shape in Shape::ALL {
+            match Plan::new(&program, shape) {
+                Ok(plan) => assert_eq!(plan.notes, ["4096 sets of coefficients, no branch"], "{shape}"),
+                Err(failure) => assert!(failure.to_string().contains("would all be written out"), "{shape}: {failure}"),
+            }
+        }
+        assert!(Plan::new(&program, Shape::Coefficients).is_ok());
+    }
+
+    #[test]
     fn steps_are_no_sums() {
         let program = Program::read("tables/smsr.ron").unwrap_or_else(|e| panic!("{e}"));
         let plan = Plan::new(&program, Shape::Coefficients).unwrap_or_else(|e| panic!("{e}"));

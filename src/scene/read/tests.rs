@@ -122,3 +122,27 @@ fn wrong_patterns_are_refused_at_their_places() {
     assert_eq!(object.detail.as_ref().map(|detail| detail.knots.len()), Some(2));
     assert_eq!(object.shine.map(|shine| shine.reflectance), Some(0.04));
 }
+
+#[test]
+fn gloss_is_read_and_out_of_its_range_refused() {
+    let with = |gloss: &str| {
+        parse("light: Directional(direction: (0, -1, 0)),", &format!("Ground(size: (4, 4)), gloss: {gloss}"))
+    };
+    let glossy = with("(roughness: 0.25)").expect("is right").objects[0].gloss.expect("is said");
+    assert_eq!((glossy.roughness, glossy.reflectance), (0.25, 0.04));
+    for (gloss, said) in [
+        ("(roughness: 1.5)", "1.5 is out of range"),
+        ("(roughness: NaN)", "NaN is out of range"),
+        ("(roughness: 0.5, reflectance: -1)", "-1 is out of range"),
+        ("(reflectance: 0.5)", "roughness"),
+        ("(roughness: 0.5, colour: 1)", "colour"),
+    ] {
+        let error = with(gloss).expect_err(gloss);
+        assert!(error.contains(said), "{gloss}: {error}");
+    }
+    assert!(
+        parse("light: Directional(direction: (0, -1, 0)),", "Ground(size: (4, 4))").expect("is right").objects[0]
+            .gloss
+            .is_none()
+    );
+}

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 #[cfg(feature = "gpu")]
 use super::gpu::Peeling;
-use super::lit::Lit;
+use super::lit::{Lit, OCCLUDERS};
 use super::picture::{Pixels, peeled};
 use super::received::Received;
 use super::sampling::{Filter, estimates, ratio};
@@ -48,20 +48,6 @@ pub const RADIUS: Setting = Setting {
     doc: "pixels to each side that the filter of shadows takes in",
     default: Value::Whole(6),
     range: Range::Whole(0, 64),
-    label: "",
-};
-
-/// Solids by their silhouettes: a word of [`OCCLUDERS`].
-pub const SILHOUETTES: &str = "silhouettes";
-/// Every surface by its triangles, as if it were no solid: a word of [`OCCLUDERS`].
-pub const TRIANGLES: &str = "triangles";
-
-/// The way in which occluders are taken.
-pub const OCCLUDERS: Setting = Setting {
-    name: "occluders",
-    doc: "solids by their silhouettes, or everything by its triangles, to compare",
-    default: Value::Word(SILHOUETTES),
-    range: Range::Word(&[SILHOUETTES, TRIANGLES]),
     label: "",
 };
 

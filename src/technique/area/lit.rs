@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::entry::{OCCLUDERS, TRIANGLES};
 use super::gloss::{Seen, Sheen, sheens};
 use super::mesh::Mesh;
 use super::occluder::Occluder;
@@ -16,6 +15,21 @@ use crate::scene::rays::SurfacePoint;
 use crate::scene::surfaces::Surfaces;
 use crate::scene::{Form, Object, Scene};
 use crate::technique::Frame;
+use crate::technique::setting::{Range, Setting, Value};
+
+/// Solids by their silhouettes: a word of [`OCCLUDERS`].
+pub const SILHOUETTES: &str = "silhouettes";
+/// Every surface by its triangles, as if it were no solid: a word of [`OCCLUDERS`].
+pub const TRIANGLES: &str = "triangles";
+
+/// The way in which occluders are taken.
+pub const OCCLUDERS: Setting = Setting {
+    name: "occluders",
+    doc: "solids by their silhouettes, or everything by its triangles, to compare",
+    default: Value::Word(SILHOUETTES),
+    range: Range::Word(&[SILHOUETTES, TRIANGLES]),
+    label: "",
+};
 
 /// Polygonal lights, occluders, and the surfaces that the camera sees.
 #[derive(Debug)]

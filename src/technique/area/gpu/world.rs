@@ -111,9 +111,9 @@ impl World {
         self.places = places;
     }
 
-    /// The number of corners so far.
+    /// Its size so far, in corners; a body is as large as two.
     pub(super) fn size(&self) -> usize {
-        self.corners.len()
+        self.corners.len() + 2 * self.bodies.len()
     }
 
     /// The buffers of the skeleton that hold it, by name.
