@@ -101,7 +101,16 @@ impl Hull {
 }
 
 fn object(triangles: Vec<Triangle>, colour: [f64; 3], casts: bool) -> Object {
-    Object { colour, gloss: None, matter: Matter::OPAQUE, casts, triangles, parts: Vec::new() }
+    Object {
+        colour,
+        gloss: None,
+        matter: Matter::OPAQUE,
+        shine: None,
+        detail: None,
+        casts,
+        triangles,
+        parts: Vec::new(),
+    }
 }
 
 fn scene(name: String, lights: &[Hull], occluders: &[Hull]) -> Sized {
