@@ -167,6 +167,17 @@ fn time_for(rows: &[&Row], technique: &dyn Technique, level: f64) -> Option<f64>
     Some(bad.time * (good.time / bad.time).powf(share))
 }
 
+/// The root mean square error that a technique has after a time: between two numbers of rays by powers, and that of the
+/// most rays where there is more time than these take. `None` where its fewest rays take longer.
+fn error_in(rows: &[&Row], technique: &dyn Technique, time: f64) -> Option<f64> {
+    let own: Vec<&&Row> = rows.iter().filter(|row| row.technique == technique).collect();
+    let place = own.iter().rposition(|row| row.time <= time)?;
+    let quick = own[place];
+    let Some(slow) = own.get(place + 1) else { return Some(quick.error.rmse) };
+    let share = (time / quick.time).ln() / (slow.time / quick.time).ln();
+    Some(quick.error.rmse * (slow.error.rmse / quick.error.rmse.max(1e-12)).powf(share))
+}
+
 fn table(out: &mut impl Write, scene: &Scene, techniques: &[TechniqueArgument], rows: &[&Row]) -> Result<()> {
     writeln!(out, "{}: {}", scene.name, scene.title)?;
     let mut table = Table::new();
@@ -184,6 +195,13 @@ fn table(out: &mut impl Write, scene: &Scene, techniques: &[TechniqueArgument], 
     table.column_iter_mut().skip(1).for_each(|column| column.set_cell_alignment(CellAlignment::Right));
     writeln!(out, "{}", table.trim_fmt())?;
     let Some((first, others)) = techniques.split_first() else { return Ok(()) };
+    if let Some(time) = rows.iter().find(|row| row.technique == *first).map(|row| row.time) {
+        let others = others.iter().map(|other| match error_in(rows, *other, time) {
+            Some(error) => format!("{other} has RMSE {error:.1e}"),
+            None => format!("{other} does not finish"),
+        });
+        writeln!(out, "In the time of {first}: {}", others.collect::<Vec<_>>().join("; "))?;
+    }
     for level in LEVELS {
         let Some(time) = time_for(rows, *first, level) else {
             writeln!(out, "RMSE {level}: {first} does not reach it")?;
