@@ -255,8 +255,8 @@ fn table() -> Vec<Texel> {
                     let Some(start) = starts.get(column) else { break };
                     let mut shape = *start;
                     for row in 1..SIZE {
-                        let texel;
-                        (shape, texel) = fit(column, row, shape);
+                        let (found, texel) = fit(column, row, shape);
+                        shape = found;
                         if let Ok(mut all) = all.lock() {
                             all[row * SIZE + column] = texel;
                         }
