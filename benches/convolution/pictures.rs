@@ -70,7 +70,7 @@ fn light(scene: &Scene, technique: &dyn Technique, settings: &str) -> Result<(Ve
 
 fn head(first: &str) {
     println!(
-        "{}x{}, double precision nowhere, {SHARP}; times on the CPU, relative to the first row.\n",
+        "{}x{}, single precision, {SHARP}; times on the CPU, relative to the first row.\n",
         SIZE.0, SIZE.1
     );
     println!("| scene | {first} | RMS | largest | structural dissimilarity | time |\n|---|---|---|---|---|---|");
