@@ -69,6 +69,17 @@ const WAYS: [Way; 14] = [
     way("frac_box", "frac_box", 0, Phase::Steady),
 ];
 
+/// Those that are plotted: as many as there are colours.
+const PLOTTED: [&str; 7] = [
+    "ring_affine 2, random",
+    "ring_affine 2, golden",
+    "ring_affine 3, golden",
+    "poisson8, golden",
+    "poisson16, golden",
+    "gauss19x19",
+    "frac_box",
+];
+
 const DEVIATIONS: [f64; 4] = [0.5, 1.0, 2.0, 4.0];
 
 /// Prints and plots the largest errors.
@@ -88,7 +99,9 @@ pub(crate) fn blurs(plots: &Plots) -> Result<(), Failure> {
             points.push((*deviation, subtract));
         }
         println!("| {} | {} |", way.name, cells.join(" | "));
-        lines.push(series(way.name, points));
+        if PLOTTED.contains(&way.name) {
+            lines.push(series(way.name, points));
+        }
     }
     let axes = [("deviation of a step, in pixels", Scale::Log2), ("largest error", Scale::Log10)];
     plots.lines("convolution-blurs", "64 steps against an exact blur", axes, &lines);

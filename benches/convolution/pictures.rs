@@ -69,10 +69,7 @@ fn light(scene: &Scene, technique: &dyn Technique, settings: &str) -> Result<(Ve
 }
 
 fn head(first: &str) {
-    println!(
-        "{}x{}, single precision, {SHARP}; times on the CPU, relative to the first row.\n",
-        SIZE.0, SIZE.1
-    );
+    println!("{}x{}, single precision, {SHARP}; times on the CPU, relative to the first row.\n", SIZE.0, SIZE.1);
     println!("| scene | {first} | RMS | largest | structural dissimilarity | time |\n|---|---|---|---|---|---|");
 }
 
