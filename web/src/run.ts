@@ -118,7 +118,8 @@ export class RunView implements View {
   /** Finds the point and the axes: those of a case's picture, or the point of the decision. */
   private async settle(keep = false): Promise<void> {
     const inputs: Input[] = program(this.app)?.inputs ?? [];
-    const numbers = inputs.filter(({ domain, fetched }) => domain.kind === "number" && fetched == null).map(({ name }) => name);
+    const isNumber = ({ domain }: Input) => domain.kind === "number" || domain.kind === "word";
+    const numbers = inputs.filter((input) => isNumber(input) && input.fetched == null).map(({ name }) => name);
     let point = this.app.point;
     let [across, down] = [numbers[0] ?? "", numbers[1] ?? ""];
     if (this.over.value !== "point") {

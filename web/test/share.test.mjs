@@ -20,6 +20,7 @@ test("a link holds the whole table", async () => {
   await page.waitForFunction(() => document.querySelector("#message").className === "good");
   await page.click("#share");
   await page.waitForFunction(() => location.hash.startsWith("#1."));
+  await page.waitForSelector("#toast.on");
   assert.match(await page.textContent("#toast"), /link/);
   const url = page.url();
   assert.ok(url.length < 8000, `${url.length}`);
