@@ -245,7 +245,11 @@ fn quality_of_area_lights_is_that_of_form_factors_beside_the_time() {
     assert!(many < few / 4.0 && many < none / 4.0, "{few} {many} {none}");
     assert!(std::fs::read_to_string(place.path("times.svg")).unwrap().contains("RMSE of the form factor"));
     let said = place.run(&format!("{command} --techniques peel,area_samples --rays 1,16"));
-    assert!(said.out.contains("In the time of peel: area_samples ") && said.out.contains("RMSE 0.005: peel "), "{}", said.out);
+    assert!(
+        said.out.contains("In the time of peel: area_samples ") && said.out.contains("RMSE 0.005: peel "),
+        "{}",
+        said.out
+    );
     let bad = [
         ("--techniques peel,rsmss", "needs a technique with form factors of lights"),
         ("--techniques area_exact", "no true picture is known"),

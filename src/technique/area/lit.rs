@@ -42,10 +42,8 @@ pub(super) struct Lit {
     /// For each object the share of light that its surface sends on.
     albedos: Vec<DVec3>,
     /// The place of the camera.
-    #[cfg(feature = "gpu")]
     pub(super) eye: DVec3,
     /// For each object its gloss.
-    #[cfg(feature = "gpu")]
     pub(super) glosses: Vec<Option<Gloss>>,
     /// For each pixel what the gloss of its surface makes of light.
     pub(super) sheens: Arc<Vec<Option<Sheen>>>,
@@ -78,10 +76,8 @@ impl Lit {
                 },
                 surfaces: Arc::clone(&frame.surfaces),
                 blur: 1e-9 * reach,
-                #[cfg(feature = "gpu")]
                 eye: scene.camera.eye,
                 sheens: Arc::new(sheens_of(&frame.surfaces, &glosses, scene.camera.eye)?),
-                #[cfg(feature = "gpu")]
                 glosses,
                 albedos: scene.objects.iter().map(|object| DVec3::from_array(object.colour)).collect(),
                 ambient: scene.ambient,
@@ -97,7 +93,6 @@ impl Lit {
             occluders: Vec::new(),
             surfaces: Arc::clone(&self.surfaces),
             albedos: self.albedos.clone(),
-            #[cfg(feature = "gpu")]
             glosses: self.glosses.clone(),
             sheens: Arc::clone(&self.sheens),
             ..*self

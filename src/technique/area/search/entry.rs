@@ -16,6 +16,8 @@ use crate::scene::light::Lights;
 use crate::scene::rays::Rays;
 use crate::scene::surfaces::Surfaces;
 #[cfg(feature = "gpu")]
+use crate::technique::Executor;
+#[cfg(feature = "gpu")]
 use crate::technique::prepared::{Detail, Pass};
 use crate::technique::rendered::{LIGHT, NONE};
 use crate::technique::setting::{Range, Value};
@@ -23,7 +25,7 @@ use crate::technique::tables::{
     BuiltIn, CLOSEST_POINT_SETUP, CLOSEST_POINT_START, CLOSEST_POINT_STEP, EDGE_INTEGRAL, QUAD_DIAGONAL, SEARCH_PLAN,
     TRIANGLE_CONFIGURATION, TRIANGLE_RAYS, TRIANGLE_REGION,
 };
-use crate::technique::{Ability, Executor, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
+use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
 /// Points of each curve.
 pub const BOUNDARY_RAYS: Setting = Setting {
