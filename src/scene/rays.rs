@@ -307,6 +307,7 @@ mod tests {
     use super::*;
     use crate::diag::Source;
     use crate::points::random::Random;
+    use crate::scene::Form;
 
     fn scene(objects: &str) -> Scene {
         let text = format!(

@@ -279,7 +279,7 @@ fn shown(number: f64) -> String {
 }
 
 /// Fits all places and writes a file for each entry into a directory.
-pub fn run(directory: &Path) -> std::io::Result<()> {
+pub(crate) fn run(directory: &Path) -> std::io::Result<()> {
     let texels = table();
     let entries = [
         ("a", "entry (1,1) of the inverse matrix, whose entry (2,2) is 1"),
