@@ -54,7 +54,7 @@ pub struct Scene {
 pub struct Object {
     /// Its colour, linear.
     pub colour: [f64; 3],
-    /// What it reflects like a rough mirror, for techniques that show it.
+    /// The rough mirror on top of it, for techniques that show it.
     pub gloss: Option<Gloss>,
     /// The matter inside of its surface, for techniques that look there.
     pub matter: Matter,

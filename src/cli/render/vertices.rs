@@ -54,11 +54,11 @@ pub(in crate::cli) struct Arguments {
 struct Subject {
     series: Series,
     sized: Sized,
-    /// How occluders are taken: a word of [`OCCLUDERS`].
+    /// The way in which occluders are taken: a word of [`OCCLUDERS`].
     taken: &'static str,
 }
 
-/// What a scene is measured for.
+/// The purpose that a scene is measured for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Series {
     Grid,

@@ -13,7 +13,7 @@ use crate::technique::tables::{LTC, LTC_ALBEDO, LTC_MATRIX};
 /// Rows and columns of the tables, whose texels are told apart by them.
 const SIZE: usize = 64;
 
-/// What a glossy surface makes of light.
+/// The reflection of light by a glossy surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sheen {
     /// The transform of its directions.

@@ -115,7 +115,7 @@ impl Lit {
         })
     }
 
-    /// What the gloss of the surface at a pixel makes of light, if it has any.
+    /// The reflection of light by the gloss of the surface at a pixel, if it has any.
     pub(super) fn sheen(&self, pixel: usize) -> Option<Sheen> {
         self.sheens[pixel]
     }
@@ -131,7 +131,7 @@ impl Lit {
     }
 }
 
-/// What the gloss of each pixel's surface makes of light.
+/// The reflection of light by the gloss of each pixel's surface.
 fn sheens_of(surfaces: &Surfaces, glosses: &[Option<Gloss>], eye: DVec3) -> Result<Vec<Option<Sheen>>, Failure> {
     let seen = |point: &SurfacePoint| -> Option<Seen> {
         Some((glosses[point.object as usize]?, point.smooth_normal, eye - point.place))

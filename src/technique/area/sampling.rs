@@ -59,7 +59,7 @@ impl Lobe {
         Self { inverse, determinant: inverse.determinant() }
     }
 
-    /// What takes the place of the cosine over pi: the density of the lobe in a direction.
+    /// The density of the lobe in a direction, which takes the place of the cosine over pi.
     fn density(&self, direction: DVec3) -> f64 {
         let turned = self.inverse * direction;
         let length = turned.length();

@@ -169,7 +169,7 @@ struct SurfaceRow {
     normal: Vec3,
 }
 
-/// What is seen at a pixel where something is.
+/// The kinds of surfaces that are seen at pixels.
 const MATT: u32 = 1;
 const GLOSSY: u32 = 2;
 

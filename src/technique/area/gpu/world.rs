@@ -1,4 +1,4 @@
-//! What hides light, as the skeleton has it: bodies, their corners, edges and faces.
+//! The things that hide light, as the skeleton has it: bodies, their corners, edges and faces.
 
 use encase::ShaderType;
 use glam::{DVec3, Vec3};
