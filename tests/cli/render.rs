@@ -23,7 +23,7 @@ fn scenes_are_listed_one_a_line() {
     let said = Place::new().run("scenes");
     assert_eq!(
         said.all(),
-        "exit code: 0\nstdout:\nabutting\nboxes\ncoincident\ncolumns\ndining\ndisk\nfence\nfoliage\ngrazing\nlattice\nleaves\noutdoor\npoles\nslope\nstudio\ntable\nteapot\ntext\ntilt\n"
+        "exit code: 0\nstdout:\nabutting\nboxes\nclouds\ncoincident\ncolumns\ndining\ndisk\nfence\nfoliage\ngrazing\nhexagon\nlattice\nleaves\nopening\noutdoor\npoles\nskittles\nslope\nstudio\ntable\nteapot\ntext\ntilt\ntrio\n"
     );
 }
 
