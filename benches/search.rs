@@ -15,9 +15,8 @@ use umbrage::scene::Scene;
 use umbrage::scene::light::{Light, Polygon};
 use umbrage::scene::rays::{Rays, SurfacePoint};
 use umbrage::scene::surfaces::Surfaces;
-use umbrage::technique::area::SEED;
 use umbrage::technique::area::search::{BOUNDARY_RAYS, FRACTION, TESTS};
-use umbrage::technique::setting::Value;
+use umbrage::technique::setting::{SEED, Value};
 use umbrage::technique::{Executor, Frame, Settings, from_name};
 
 const SCENES: [&str; 4] = ["trio", "hexagon", "opening", "skittles"];
@@ -191,11 +190,11 @@ fn times(scene: &Scene) -> Result<(), Failure> {
 
 /// Error against cost.
 fn picture(rows: &[Row]) -> String {
-    let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Log10 };
+    let axis = |label: &str, scale: Scale| Axis { label: label.to_owned(), scale };
     let frame = plot::Frame {
         title: "Box, ball and cone under a triangle: error of the visible fraction".to_owned(),
-        x: axis("tests of visibility per pixel of the penumbra"),
-        y: axis("root mean square"),
+        x: axis("tests of visibility per pixel of the penumbra", Scale::Linear),
+        y: axis("root mean square", Scale::Log10),
         size: (760, 420),
     };
     let one = |row: &Row| Series { name: row.name.clone(), points: vec![(row.tests, row.rms)] };

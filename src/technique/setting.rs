@@ -19,6 +19,15 @@ pub struct Setting {
     pub label: &'static str,
 }
 
+/// The number of a frame, which random streams depend on.
+pub const SEED: Setting = Setting {
+    name: "seed",
+    doc: "number of the frame, which random places depend on",
+    default: Value::Whole(0),
+    range: Range::Whole(0, u32::MAX),
+    label: "",
+};
+
 /// The values that a setting takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Range {

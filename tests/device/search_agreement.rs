@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use umbrage::scene::Scene;
-use umbrage::technique::area::SEED;
 use umbrage::technique::area::search::{BOUNDARY_RAYS, COHERENCE, CONFIGURATION, DISCONTINUITY, FRACTION, TESTS};
 use umbrage::technique::rendered::LIGHT;
-use umbrage::technique::setting::Value;
+use umbrage::technique::setting::{SEED, Value};
 use umbrage::technique::{Executor, Frame, Rendered, Settings};
 
 const SIZE: (u32, u32) = (96, 54);

@@ -18,7 +18,7 @@ use crate::technique::Executor;
 #[cfg(feature = "gpu")]
 use crate::technique::prepared::{Detail, Pass};
 use crate::technique::rendered::LIGHT;
-use crate::technique::setting::{Range, Value};
+use crate::technique::setting::{Range, SEED, Value};
 use crate::technique::tables::{
     BOX_SILHOUETTE, BuiltIn, CLIP_STEP, EDGE_INTEGRAL, EDGE_SILHOUETTE, HORIZON_CLIP, LTC, LTC_ALBEDO, LTC_MATRIX,
 };
@@ -30,15 +30,6 @@ pub const SAMPLES: Setting = Setting {
     doc: "rays of a pixel to each light",
     default: Value::Whole(16),
     range: Range::Whole(1, 1 << 16),
-    label: "",
-};
-
-/// The number of a frame, which random streams depend on.
-pub const SEED: Setting = Setting {
-    name: "seed",
-    doc: "number of the frame, which random places depend on",
-    default: Value::Whole(0),
-    range: Range::Whole(0, u32::MAX),
     label: "",
 };
 

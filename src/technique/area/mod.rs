@@ -41,7 +41,6 @@ mod viewpoint;
 
 pub use entry::{
     AREA_RATIO, AREA_SAMPLES, AREA_UNSHADOWED, CLIPS, EXACT, Entry, FACTOR, OVERFLOW, PEEL, PIECES, RADIUS, SAMPLES,
-    SEED,
 };
 #[cfg(feature = "gpu")]
 pub use gpu::PointPeeler;

@@ -16,6 +16,7 @@ use crate::technique::Executor;
 #[cfg(feature = "gpu")]
 use crate::technique::prepared::{Detail, Pass};
 use crate::technique::rendered::LIGHT;
+use crate::technique::setting::SEED;
 use crate::technique::tables::{self, BuiltIn};
 use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
@@ -47,7 +48,7 @@ static SETTINGS: [Setting; 20] = [
     set::KERNEL,
     set::SAMPLES,
     set::PHASE,
-    set::SEED,
+    SEED,
     set::SMEAR,
     set::COVERAGE,
     set::HIT,
@@ -67,7 +68,7 @@ static SETTINGS: [Setting; 20] = [
 static REFERENCE_SETTINGS: [Setting; 11] = [
     set::SLABS,
     set::DETAIL,
-    set::SEED,
+    SEED,
     set::COVERAGE,
     set::HIT,
     set::RULE,

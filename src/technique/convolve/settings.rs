@@ -8,7 +8,7 @@ use super::stencil::Border;
 use super::steps::{Phase, Spread};
 use super::view::Projection;
 use crate::technique::Setting;
-use crate::technique::setting::{Range, Settings, Value};
+use crate::technique::setting::{Range, SEED, Settings, Value};
 
 const fn whole(name: &'static str, doc: &'static str, default: u32, range: (u32, u32)) -> Setting {
     Setting { name, doc, default: Value::Whole(default), range: Range::Whole(range.0, range.1), label: "" }
@@ -38,8 +38,6 @@ pub const SAMPLES: Setting = whole("samples", "samples of a ring", 3, (2, 64));
 /// The sequence of phases.
 pub const PHASE: Setting =
     word("phase", "how samples move along their curve", &["golden", "steady", "random", "pixel"]);
-/// The number that drawn phases depend on.
-pub const SEED: Setting = whole("seed", "number that phases drawn at random depend on", 0, (0, u32::MAX));
 /// The answer to the blur of interpolation.
 pub const SMEAR: Setting =
     word("smear", "what is done about the blur of interpolation", &["advised", "none", "subtract", "stride", "snap"]);

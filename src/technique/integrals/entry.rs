@@ -104,7 +104,7 @@ enum Shader<'s> {
     /// The batch interpreter, and plain Rust around it.
     Interpreter,
     #[cfg(feature = "gpu")]
-    Gpu(super::gpu::LightPipeline<'s>),
+    Gpu(Box<super::gpu::LightPipeline<'s>>),
     #[cfg(not(feature = "gpu"))]
     #[expect(dead_code, reason = "keeps the lifetime in builds without GPU support")]
     Never(&'s std::convert::Infallible),
@@ -124,7 +124,9 @@ impl<'s> Integrals<'s> {
         let shader = match frame.on {
             Executor::Cpu => Shader::Interpreter,
             #[cfg(feature = "gpu")]
-            Executor::Gpu(gpu) => Shader::Gpu(super::gpu::LightPipeline::new(gpu, &tables, &seen.surroundings)?),
+            Executor::Gpu(gpu) => {
+                Shader::Gpu(Box::new(super::gpu::LightPipeline::new(gpu, &tables, &seen.surroundings)?))
+            }
         };
         Ok(Self { shader, tables, seen, settings: settings(frame) })
     }

@@ -26,6 +26,9 @@ mod options;
 mod picture;
 pub mod point;
 mod polygon;
+#[cfg(feature = "gpu")]
+mod rows;
+mod settings;
 mod tables;
 mod triangle;
 
@@ -34,11 +37,9 @@ use glam::DVec3;
 use super::sampling::Stream;
 use crate::diag::Failure;
 pub use edge::Edge;
-pub use entry::{
-    AGAINST, BOUNDARY_RAYS, COHERENCE, CONFIGURATION, DISCONTINUITY, ERROR, FRACTION, GAP, RULE, SPACING, TESTS,
-    TOLERANCE,
-};
+pub use entry::{CONFIGURATION, DISCONTINUITY, ERROR, FRACTION, TESTS};
 pub use options::{Options, Rule};
+pub use settings::{AGAINST, BOUNDARY_RAYS, COHERENCE, GAP, RULE, SPACING, TOLERANCE};
 use tables::Tables;
 pub use triangle::Region;
 

@@ -94,7 +94,7 @@ impl Picture<'_> {
         match coherence {
             Coherence::Lines => {
                 let columns = |row: usize| {
-                    line(row).map(move |at| if row % 2 == 0 { at } else { 2 * row * width + width - 1 - at })
+                    line(row).map(move |at| if row.is_multiple_of(2) { at } else { 2 * row * width + width - 1 - at })
                 };
                 let bands = rows(BAND).map(|rows| rows.flat_map(columns).collect()).collect();
                 self.search(bands, Neighbour::Before, progress)?.iter().for_each(|part| self.take(&mut all, part));
@@ -164,7 +164,7 @@ impl Picture<'_> {
                 Neighbour::None => None,
                 Neighbour::Before => part.known.last(),
                 Neighbour::Beside(known) => {
-                    let beside = if pixel % width == 0 { pixel + 1 } else { pixel - 1 };
+                    let beside = if pixel.is_multiple_of(width) { pixel + 1 } else { pixel - 1 };
                     known.get(beside).and_then(Option::as_ref)
                 }
             };
