@@ -62,7 +62,7 @@ pub enum Pattern {
         power: f64,
         /// The height of ridges.
         offset: f64,
-        /// How much a ridge brings out the next one.
+        /// The strength with which a ridge brings out the next one.
         gain: f64,
     },
     /// Bricks: 1 in a brick, 0 in the mortar.

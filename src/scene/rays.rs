@@ -33,7 +33,7 @@ pub struct Rays {
     objects: Vec<u32>,
     /// For each triangle the number of the part of its object that it stands for.
     parts: Vec<Option<u32>>,
-    /// What is traced exactly; its triangles are not in the hierarchy.
+    /// Solids that are traced exactly; their triangles are not in the hierarchy.
     solids: Vec<Exact>,
     /// Distance of the start of a shadow ray from its surface.
     gap: f64,

@@ -101,7 +101,7 @@ impl Cone {
     }
 }
 
-/// Where a ray enters a cone, and the normal there.
+/// The distance at which a ray enters a cone, and the normal there.
 fn cone(cone: Cone, start: DVec3, direction: DVec3) -> Option<(f64, DVec3)> {
     let (first, last) = cone.beside(start, direction, (0.0, f64::INFINITY))?;
     let at = |distance: f64| start + direction * distance;

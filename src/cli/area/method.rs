@@ -134,7 +134,7 @@ fn numbered<'q>(rows: &'q [(u32, &'q Row)]) -> impl Iterator<Item = (u32, Query<
     rows.iter().map(|(number, row)| (*number, row.question.query()))
 }
 
-/// What is found in single precision; in double where that is beyond its range.
+/// The findings in single precision; in double where that is beyond its range.
 fn searched(single: &mut Finder<f32>, double: &mut Finder<f64>, rows: &[(u32, &Row)], seed: u32) -> Result<Vec<Found>> {
     let mut all = single.find(numbered(rows), seed)?;
     let beyond: Vec<usize> = (0..all.len()).filter(|index| !all[*index].answer.is_finite()).collect();

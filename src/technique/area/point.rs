@@ -214,7 +214,7 @@ impl<T: Scalar> Peeler<T> {
         self.clipper.inside(corners, &heights)
     }
 
-    /// What the visible pieces of a light come to, of which `pieces` gives those above some planes through the point.
+    /// Adds up the visible pieces of a light, of which `pieces` gives those above some planes through the point.
     pub(super) fn add_up(
         &self,
         query: &Query<'_>,

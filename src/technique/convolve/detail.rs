@@ -146,7 +146,7 @@ pub struct Meant {
     pub opacity: f32,
     /// The share of what is absorbed that goes on all the same.
     pub transport: [f32; 3],
-    /// What is absorbed of a unit of length.
+    /// The absorption of a unit of length.
     pub extinction: f32,
 }
 

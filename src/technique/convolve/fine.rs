@@ -11,7 +11,7 @@ use crate::eval::Batch;
 use crate::scene::matter::{Matter as Contents, Pattern};
 use crate::technique::tables::{NOISE, columns};
 
-/// What a slab takes of an object at a pixel.
+/// The part of an object that a slab takes at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Taken {
     /// The object.
@@ -53,7 +53,7 @@ pub(super) struct Fine {
     ways: Ways,
 }
 
-/// What a row of pixels needs to sample details.
+/// The things that a row of pixels needs to sample details.
 #[derive(Debug)]
 pub(super) struct FineRow {
     patterns: Patterns,
@@ -98,7 +98,7 @@ impl Fine {
         self.placed[object].is_some()
     }
 
-    /// What a row of pixels needs.
+    /// The things that a row of pixels needs.
     pub(super) fn row(&self) -> Result<FineRow, Failure> {
         Ok(FineRow { patterns: Patterns::new()?, hash: Batch::new(NOISE.function("hash")?) })
     }

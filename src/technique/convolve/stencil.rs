@@ -165,7 +165,7 @@ pub enum Gather<T> {
 pub struct Around<T> {
     /// The number of rows.
     pub height: usize,
-    /// What is read beside the image.
+    /// The values that are read beside the image.
     pub border: Border,
     /// Light that nothing has hindered.
     pub light: T,

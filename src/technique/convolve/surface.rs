@@ -48,7 +48,7 @@ pub struct Facets {
     pub shown: Vec<f32>,
 }
 
-/// What surfaces do with the light that arrives.
+/// The treatment of arriving light by surfaces.
 #[derive(Debug, Clone)]
 pub struct Surfaces {
     lamps: Vec<Lamp>,

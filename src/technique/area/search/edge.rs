@@ -38,7 +38,8 @@ impl Search<'_> {
     /// The discontinuities of an edge, looked for first where the neighbouring pixel has some.
     pub(super) fn edge(&mut self, line: Line, ends: [bool; 2], neighbour: Option<&Edge>) -> Edge {
         let seen = ends[0];
-        let plan = self.tables.plan(ends, neighbour);
+        let known = neighbour.map(|edge| (edge.ends[0], edge.discontinuities()));
+        let plan = self.tables.plan(ends, known);
         let (found, between) = match plan.method {
             Method::Bisect => {
                 let place = self.bisect(line, (plan.from, plan.to), seen, self.options.tolerance);

@@ -139,7 +139,7 @@ impl<'g> Searching<'g> {
         Ok(Placed { runs, work: self.compute.covering([width, height, 1]), found })
     }
 
-    /// What is found at every pixel of a picture.
+    /// The findings at every pixel of a picture.
     ///
     /// # Errors
     /// When the device fails.

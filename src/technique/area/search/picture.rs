@@ -73,7 +73,7 @@ enum Neighbour<'k> {
     Beside(&'k [Option<Known>]),
 }
 
-/// What was found at some pixels.
+/// The findings at some pixels.
 struct Part {
     pixels: Vec<usize>,
     /// For every pixel all lights, one after the other.

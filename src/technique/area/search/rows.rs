@@ -98,7 +98,7 @@ pub(super) struct SolidRow {
     square: f32,
 }
 
-/// What rays are tested against.
+/// The surfaces that rays are tested against.
 pub(super) struct Casters {
     pub(super) nodes: Vec<NodeRow>,
     pub(super) faces: Vec<FaceRow>,

@@ -1,7 +1,6 @@
 //! The tables of the search, as the search asks them.
 
 use super::super::tabulated::Tabulated;
-use super::edge::Edge;
 use super::options::Rule;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::Interpreter;
@@ -163,11 +162,12 @@ impl Tables {
     }
 
     /// The way to look for the discontinuities of an edge (`search_plan`).
-    pub(super) fn plan(&mut self, ends: [bool; 2], neighbour: Option<&Edge>) -> Plan {
-        let places = neighbour.map_or(&[][..], Edge::discontinuities);
-        let (history, start_changed) = match neighbour {
-            None => (0, false),
-            Some(edge) => (1 + places.len(), edge.ends[0] != ends[0]),
+    ///
+    /// Of the neighbouring pixel, if there is one, the visibility of the start is known, and up to two discontinuities.
+    pub(super) fn plan(&mut self, ends: [bool; 2], neighbour: Option<(bool, &[f64])>) -> Plan {
+        let (history, start_changed, places) = match neighbour {
+            None => (0, false, &[][..]),
+            Some((start, places)) => (1 + places.len(), start != ends[0], places),
         };
         let (first, last) = (places.first().copied().unwrap_or(0.0), places.last().copied().unwrap_or(1.0));
         let point = [yes(ends[0] != ends[1]), level(history), yes(start_changed), number(first), number(last)];

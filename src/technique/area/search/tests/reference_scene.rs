@@ -87,7 +87,7 @@ fn sampled(from: DVec3, sides: u32) -> f64 {
     f64::from(open) / f64::from(sides * sides)
 }
 
-/// What came of a run over the picture.
+/// Costs and errors of a run over the picture.
 #[derive(Debug, Default)]
 struct Summary {
     tests: f64,
