@@ -169,7 +169,7 @@ impl<'c> SceneSlabs<'c> {
         (sum, of, part)
     }
 
-    /// What is taken of a slab, if it is any.
+    /// The part that is taken of a slab, if there is any.
     fn taken(&self, cursor: &Cursor, changes: &[Change], case: Case, ends: (f64, f64)) -> Option<Taken> {
         let full = self.policies.coverage == "full";
         let hit = if self.policies.hit == "first" { changes.first() } else { changes.last() };

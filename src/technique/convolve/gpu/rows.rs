@@ -1,4 +1,4 @@
-//! What the host tells the skeleton of the sweep: records of steps, rows of samples, materials.
+//! Data that the host gives to the skeleton of the sweep: records of steps, rows of samples, materials.
 
 use encase::ShaderType;
 use glam::{UVec2, Vec3, Vec4};

@@ -43,7 +43,7 @@ pub(super) struct SweepPasses {
     sweep: Compute,
 }
 
-/// What all chunks of a sweep share.
+/// The things that all chunks of a sweep share.
 #[derive(Debug, Clone)]
 pub(super) struct Swept {
     /// The number of lights.
