@@ -103,7 +103,9 @@ fn malformed_points_are_refused_by_line_and_id_and_nothing_is_written() {
 }
 
 /// Of the specification, section 4: an occluder before a triangle of light, its configuration and discontinuities.
-const BEFORE_A_TRIANGLE: [(&str, &str, [&[f64]; 3], f64); 3] = [
+type Known = (&'static str, &'static str, [&'static [f64]; 3], f64);
+
+const BEFORE_A_TRIANGLE: [Known; 3] = [
     ("[[-0.5,1,1],[1,-0.5,1],[1.5,-0.5,1],[-0.5,1.5,1]]", "C022", [&[0.25, 0.5], &[], &[0.5, 0.75]], 13.0 / 16.0),
     ("[[-0.5,-0.5,1],[1.5,-0.5,1],[1.5,1.5,1],[-0.5,1.5,1]]", "C112", [&[0.75], &[0.25, 0.75], &[0.25]], 1.0 / 8.0),
     ("[[1.5,-1,1],[1.5,1.5,1],[-1,1.5,1]]", "C222", [&[0.25, 0.75], &[0.25, 0.75], &[0.25, 0.75]], 3.0 / 16.0),
@@ -112,7 +114,7 @@ const BEFORE_A_TRIANGLE: [(&str, &str, [&[f64]; 3], f64); 3] = [
 #[test]
 fn a_search_finds_configurations_and_discontinuities_within_its_tolerance() {
     let place = Place::new();
-    let row = |(index, (occluder, ..)): (usize, &(&str, &str, [&[f64]; 3], f64))| {
+    let row = |(index, (occluder, ..)): (usize, &Known)| {
         format!(
             r#"{{"id": {index}, "light": [[0,0,2],[4,0,2],[0,4,2]], "two_sided": true, "point": [0,0,0], "normal": [0,0,1],
                 "occluders": [{{"type": "polygon", "v": {occluder}}}]}}"#
@@ -170,7 +172,7 @@ fn a_search_of_lights_with_more_corners_says_what_it_found_of_each_triangle() {
 #[test]
 fn options_of_the_search_are_for_the_search() {
     let place = Place::new();
-    place.file("points.json", &format!("{{{LIGHT}}}"));
+    place.file("points.json", format!("{{{LIGHT}}}"));
     for option in ["--rays 3", "--seed 3"] {
         let said = place.run(&format!("area --input points.json {option}"));
         assert_eq!(said.code, Some(2));
@@ -180,7 +182,7 @@ fn options_of_the_search_are_for_the_search() {
         let said = place.run(&format!("area --input points.json --method search {wrong}"));
         assert_eq!(said.code, Some(2), "{wrong}");
     }
-    place.file("points.json", &format!("{{{LIGHT}}}"));
+    place.file("points.json", format!("{{{LIGHT}}}"));
     let said = place.run("area --input points.json --method search --backend gpu");
     assert!(said.code == Some(2) && said.err.contains("the search of points runs on the CPU"), "{}", said.err);
 }

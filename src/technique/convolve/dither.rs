@@ -61,8 +61,8 @@ mod tests {
     fn phases_are_those_of_the_table() {
         let mut dither = Dither::new((20, 8)).expect("built in");
         let phases = dither.phases(3, 1).expect("built in");
-        assert_eq!(usize::from(phases[5 * 20 + 17]), (611_497_148_usize >> 8) * PHASES >> 24);
+        assert_eq!(usize::from(phases[5 * 20 + 17]), ((611_497_148_usize >> 8) * PHASES) >> 24);
         assert_ne!(phases, dither.phases(4, 1).expect("built in"));
-        assert_eq!(usize::from(dither.phases(0, 1).expect("built in")[0]), (555_269_243_usize >> 8) * PHASES >> 24);
+        assert_eq!(usize::from(dither.phases(0, 1).expect("built in")[0]), ((555_269_243_usize >> 8) * PHASES) >> 24);
     }
 }
