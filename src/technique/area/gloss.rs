@@ -91,7 +91,8 @@ mod tests {
     /// Fresnel's part.
     #[test]
     fn texels_have_the_anchors_of_the_fit() {
-        let anchors: [([usize; 2], [f64; 4], f64, Option<f64>); 7] = [
+        type Anchor = ([usize; 2], [f64; 4], f64, Option<f64>);
+        let anchors: [Anchor; 7] = [
             ([63, 0], [1.0, 0.0, 0.0, 1.12813], 0.306974, Some(3.4e-5)),
             ([32, 0], [1.0, 0.0, 0.0, 0.49559], 0.912293, None),
             ([16, 0], [1.0, 0.0, 0.0, 0.129153], 0.999894, None),

@@ -8,7 +8,7 @@ use super::super::picture::fractions;
 #[cfg(feature = "gpu")]
 use super::gpu::Searching;
 use super::picture::{Coherence, Picture, Pixels};
-use super::settings::{AGAINST, BOUNDARY_RAYS, COHERENCE, GAP, RULE, SPACING, TOLERANCE};
+use super::settings::{AGAINST, BOUNDARY_RAYS, BULGES, COHERENCE, GAP, SPACING, TOLERANCE};
 use super::{Options, Rule};
 use crate::diag::Failure;
 #[cfg(feature = "gpu")]
@@ -74,7 +74,7 @@ impl Technique for Entry {
     }
 
     fn settings(&self) -> &'static [Setting] {
-        const ALL: [Setting; 8] = [BOUNDARY_RAYS, SEED, TOLERANCE, GAP, SPACING, RULE, COHERENCE, AGAINST];
+        const ALL: [Setting; 8] = [BOUNDARY_RAYS, SEED, TOLERANCE, GAP, SPACING, BULGES, COHERENCE, AGAINST];
         &ALL
     }
 
@@ -147,7 +147,7 @@ impl<'s> Searched<'s> {
                 tolerance: settings.number(&TOLERANCE),
                 gap: settings.number(&GAP),
                 spacing: settings.number(&SPACING),
-                rule: if settings.word(&RULE) == "chord" { Rule::Chord } else { Rule::Line },
+                rule: if settings.word(&BULGES) == "chord" { Rule::Chord } else { Rule::Line },
             },
             seed: settings.whole(&SEED),
             coherence: match settings.word(&COHERENCE) {

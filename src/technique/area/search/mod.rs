@@ -39,7 +39,7 @@ use crate::diag::Failure;
 pub use edge::Edge;
 pub use entry::{CONFIGURATION, DISCONTINUITY, ERROR, FRACTION, TESTS};
 pub use options::{Options, Rule};
-pub use settings::{AGAINST, BOUNDARY_RAYS, COHERENCE, GAP, RULE, SPACING, TOLERANCE};
+pub use settings::{AGAINST, BOUNDARY_RAYS, BULGES, COHERENCE, GAP, SPACING, TOLERANCE};
 use tables::Tables;
 pub use triangle::Region;
 

@@ -42,9 +42,9 @@ pub const SPACING: Setting = Setting {
 };
 
 /// The rule by which a search for a closest point is not begun.
-pub const RULE: Setting = Setting {
-    name: "rule",
-    doc: "bulges that are looked into: those beyond a straight line in the distance, or beyond a chord",
+pub const BULGES: Setting = Setting {
+    name: "bulges",
+    doc: "bulges of a border that are looked into: those beyond a straight line in the distance, or beyond a chord",
     default: Value::Word("line"),
     range: Range::Word(&["line", "chord"]),
     label: "",

@@ -102,7 +102,7 @@ fn behind_opaque_matter_there_is_no_light() {
     let picture = rendered(&sharp, slabs(16).with(&set::HIT, Value::Word("last")));
     assert!(is_sane(&picture));
     let tilted = scene("Gaussian(tilts: (45, 0), deviations: (0, 0))", &format!("{PLATE}, {BLOCK}"));
-    assert!(light(&rendered(&tilted, slabs(16))).iter().any(|pixel| *pixel == [0.0; 3]));
+    assert!(light(&rendered(&tilted, slabs(16))).contains(&[0.0; 3]));
 }
 
 /// A light of no strength is left out: matter is black, and as opaque as ever.
