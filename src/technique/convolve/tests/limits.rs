@@ -111,7 +111,7 @@ fn without_light_matter_is_black() {
     let dark = scene("Gaussian(tilts: (0, 0), deviations: (0.3, 0.3), colour: (0, 0, 0))", PLATE);
     let picture = rendered(&dark, slabs(16));
     assert!(light(&picture).iter().all(|pixel| *pixel == [0.0; 3]));
-    assert!(picture.numbers(OPACITY).expect("a layer").iter().any(|opacity| *opacity == 1.0));
+    assert!(picture.numbers(OPACITY).expect("a layer").contains(&1.0));
 }
 
 #[test]
