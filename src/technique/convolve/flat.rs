@@ -38,7 +38,7 @@ pub struct Flat {
     pub first: [u32; 2],
     /// The number of columns and rows.
     pub extent: [u32; 2],
-    /// Bits by which doubled areas are shifted to have [`SHARE_BITS`].
+    /// Bits by which doubled areas are shifted to have `SHARE_BITS`.
     pub shift: u32,
     /// Its own doubled area, shifted.
     pub area: f32,
