@@ -148,8 +148,8 @@ impl Rays {
 
     /// The triangles that rays are tested against.
     #[cfg(feature = "gpu")]
-    pub(crate) fn traced(&self) -> impl Iterator<Item = &Triangle> {
-        self.numbers.iter().map(|number| &self.triangles[*number as usize])
+    pub(crate) fn faces(&self) -> &[obvhs::triangle::Triangle] {
+        &self.faces
     }
 
     /// The largest coordinate.

@@ -57,6 +57,21 @@ pub enum Value {
 }
 
 impl Setting {
+    /// A setting that is a whole number within a range and changes no count.
+    pub const fn whole(name: &'static str, doc: &'static str, default: u32, range: (u32, u32)) -> Self {
+        Self { name, doc, default: Value::Whole(default), range: Range::Whole(range.0, range.1), label: "" }
+    }
+
+    /// A setting that is a number within a range and changes no count.
+    pub const fn number(name: &'static str, doc: &'static str, default: f64, range: (f64, f64)) -> Self {
+        Self { name, doc, default: Value::Number(default), range: Range::Number(range.0, range.1), label: "" }
+    }
+
+    /// A setting that is one of some words, the first if nothing is said, and changes no count.
+    pub const fn word(name: &'static str, doc: &'static str, words: &'static [&'static str]) -> Self {
+        Self { name, doc, default: Value::Word(words[0]), range: Range::Word(words), label: "" }
+    }
+
     /// Reads a value.
     ///
     /// # Errors

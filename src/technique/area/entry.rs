@@ -17,7 +17,6 @@ use crate::scene::rays::Rays;
 use crate::technique::Executor;
 #[cfg(feature = "gpu")]
 use crate::technique::prepared::{Detail, Pass};
-use crate::technique::rendered::LIGHT;
 use crate::technique::setting::{Range, SEED, Value};
 use crate::technique::tables::{
     BOX_SILHOUETTE, BuiltIn, CLIP_STEP, EDGE_INTEGRAL, EDGE_SILHOUETTE, HORIZON_CLIP, LTC, LTC_ALBEDO, LTC_MATRIX,
@@ -42,8 +41,6 @@ pub const RADIUS: Setting = Setting {
     label: "",
 };
 
-/// Layer of the sums of the form factors of lights.
-pub const FACTOR: &str = "form_factor";
 /// Layer of the convex pieces that lights were cut into.
 pub const PIECES: &str = "pieces";
 /// Layer of the clips of a polygon against a plane.
@@ -221,10 +218,7 @@ impl<'s> Area<'s> {
 impl<'s> Prepared<'s> for Area<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
         let pixels = self.pixels(progress)?;
-        let sent = pixels.received.iter().enumerate().map(|(pixel, received)| self.lit.sent(pixel, *received));
-        let light = sent.map(|light| light.as_vec3().to_array()).collect();
-        let factors = pixels.received.iter().map(|received| received.factor as f32).collect();
-        let rendered = Rendered::default().with(LIGHT, Samples::Colours(light)).with(FACTOR, Samples::Numbers(factors));
+        let rendered = self.lit.rendered(&pixels.received);
         Ok(match self.way {
             Way::Peel | Way::Exact => rendered
                 .with(PIECES, Samples::Counts(pixels.work.iter().map(|work| work.pieces as u32).collect()))

@@ -14,9 +14,12 @@ use crate::scene::matter::Gloss;
 use crate::scene::rays::SurfacePoint;
 use crate::scene::surfaces::Surfaces;
 use crate::scene::{Form, Object, Scene};
-use crate::technique::Frame;
+use crate::technique::rendered::LIGHT;
 use crate::technique::setting::{Range, Setting, Value};
+use crate::technique::{Frame, Rendered, Samples};
 
+/// Layer of the sums of the form factors of lights.
+pub const FACTOR: &str = "form_factor";
 /// Solids by their silhouettes: a word of [`OCCLUDERS`].
 pub const SILHOUETTES: &str = "silhouettes";
 /// Every surface by its triangles, as if it were no solid: a word of [`OCCLUDERS`].
@@ -120,8 +123,16 @@ impl Lit {
         self.sheens[pixel]
     }
 
+    /// The layers of the light that pixels send to the camera, and of the form factors, by what their surfaces receive.
+    pub(super) fn rendered(&self, received: &[Received]) -> Rendered {
+        let sent = received.iter().enumerate().map(|(pixel, received)| self.sent(pixel, *received));
+        let light = sent.map(|light| light.as_vec3().to_array()).collect();
+        let factors = received.iter().map(|received| received.factor as f32).collect();
+        Rendered::default().with(LIGHT, Samples::Colours(light)).with(FACTOR, Samples::Numbers(factors))
+    }
+
     /// The light that a pixel sends to the camera, by that which its surface receives.
-    pub(super) fn sent(&self, pixel: usize, received: Received) -> DVec3 {
+    fn sent(&self, pixel: usize, received: Received) -> DVec3 {
         let Some(point) = &self.surfaces.points[pixel] else { return self.background };
         // The sky above is brighter than the ground below, as in every shaded picture.
         let sky = 0.75 + 0.25 * point.smooth_normal.y;

@@ -40,11 +40,11 @@ mod tiles;
 mod viewpoint;
 
 pub use entry::{
-    AREA_RATIO, AREA_SAMPLES, AREA_UNSHADOWED, CLIPS, EXACT, Entry, FACTOR, OVERFLOW, PEEL, PIECES, RADIUS, SAMPLES,
+    AREA_RATIO, AREA_SAMPLES, AREA_UNSHADOWED, CLIPS, EXACT, Entry, OVERFLOW, PEEL, PIECES, RADIUS, SAMPLES,
 };
 #[cfg(feature = "gpu")]
 pub use gpu::PointPeeler;
-pub use lit::{OCCLUDERS, SILHOUETTES, TRIANGLES};
+pub use lit::{FACTOR, OCCLUDERS, SILHOUETTES, TRIANGLES};
 pub use occluder::Occluder;
 pub use peel::{Bounds, Work};
 pub use point::{Answer, Peeler, Query, Question, Shape};

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::clip::Clipper;
 use super::scalar::{Scalar, Vector, area, cross, dot, length, middle, rounded};
-use super::tabulated::Tabulated;
+use super::tabulated::{Tabulated, lists};
 use super::viewpoint::Viewpoint;
 use crate::diag::Failure;
 use crate::technique::tables::HORIZON_CLIP;
@@ -93,7 +93,7 @@ impl Horizon {
         let table = Tabulated::new(&HORIZON_CLIP, &["above_0", "above_1", "above_2", "above_3"])?;
         let state = |bits: usize| {
             let levels: Vec<usize> = (0..4).map(|corner| bits >> (3 - corner) & 1).collect();
-            loops(table.at(&levels))
+            lists(table.at(&levels), 2)
         };
         Ok(Self { quads: (0..16).map(state).collect() })
     }
@@ -119,14 +119,4 @@ impl Horizon {
         };
         points.iter().map(at).collect()
     }
-}
-
-/// The loops of a result: the number of loops, then each with its length, filled up to the same number of items.
-fn loops(result: &[u8]) -> Vec<Vec<usize>> {
-    let Some((count, rest)) = result.split_first() else { return Vec::new() };
-    let width = rest.len() / 2;
-    rest.chunks(width.max(1))
-        .take(usize::from(*count))
-        .map(|list| list[1..=usize::from(list[0])].iter().map(|item| usize::from(*item)).collect())
-        .collect()
 }

@@ -51,6 +51,14 @@ impl Tabulated {
     }
 }
 
+/// The lists of a result that is at most `most` of them: their number, then each with its length, filled up to the same
+/// number of items.
+pub(super) fn lists(result: &[u8], most: usize) -> Vec<Vec<usize>> {
+    let Some((count, rest)) = result.split_first() else { return Vec::new() };
+    let items = |list: &[u8]| list[1..=usize::from(list[0])].iter().map(|item| usize::from(*item)).collect();
+    rest.chunks((rest.len() / most).max(1)).take(usize::from(*count)).map(items).collect()
+}
+
 /// The numbers that a table of discrete inputs has in each of its states, in the order of the states.
 ///
 /// # Errors

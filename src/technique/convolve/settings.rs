@@ -8,85 +8,80 @@ use super::stencil::Border;
 use super::steps::{Phase, Spread};
 use super::view::Projection;
 use crate::technique::Setting;
-use crate::technique::setting::{Range, SEED, Settings, Value};
-
-const fn whole(name: &'static str, doc: &'static str, default: u32, range: (u32, u32)) -> Setting {
-    Setting { name, doc, default: Value::Whole(default), range: Range::Whole(range.0, range.1), label: "" }
-}
-
-const fn number(name: &'static str, doc: &'static str, default: f64, range: (f64, f64)) -> Setting {
-    Setting { name, doc, default: Value::Number(default), range: Range::Number(range.0, range.1), label: "" }
-}
-
-const fn word(name: &'static str, doc: &'static str, words: &'static [&'static str]) -> Setting {
-    Setting { name, doc, default: Value::Word(words[0]), range: Range::Word(words), label: "" }
-}
+use crate::technique::setting::{SEED, Settings};
 
 /// The number of slabs.
-pub const SLABS: Setting = whole("slabs", "slabs from the nearest surface to the farthest", 400, (1, 1 << 20));
+pub const SLABS: Setting = Setting::whole("slabs", "slabs from the nearest surface to the farthest", 400, (1, 1 << 20));
 /// The distance at which penumbras are right.
 pub const DISTANCE: Setting =
-    number("distance", "distance at which penumbras are right; 0 is half of the depth", 0.0, (0.0, 1e6));
+    Setting::number("distance", "distance at which penumbras are right; 0 is half of the depth", 0.0, (0.0, 1e6));
 /// The kernel.
-pub const KERNEL: Setting = word(
+pub const KERNEL: Setting = Setting::word(
     "kernel",
     "the blur of a slab",
     &["ring_affine", "ring_arc", "poisson8", "poisson16", "gauss19x19", "frac_box", "binomial3"],
 );
 /// The samples of a ring.
-pub const SAMPLES: Setting = whole("samples", "samples of a ring", 3, (2, 64));
+pub const SAMPLES: Setting = Setting::whole("samples", "samples of a ring", 3, (2, 64));
 /// The sequence of phases.
 pub const PHASE: Setting =
-    word("phase", "how samples move along their curve", &["golden", "steady", "random", "pixel"]);
+    Setting::word("phase", "how samples move along their curve", &["golden", "steady", "random", "pixel"]);
 /// The answer to the blur of interpolation.
-pub const SMEAR: Setting =
-    word("smear", "what is done about the blur of interpolation", &["advised", "none", "subtract", "stride", "snap"]);
+pub const SMEAR: Setting = Setting::word(
+    "smear",
+    "what is done about the blur of interpolation",
+    &["advised", "none", "subtract", "stride", "snap"],
+);
 /// Matter of slabs that are not inside from front to back.
-pub const COVERAGE: Setting = word("coverage", "how much matter a slab holds at a surface", &["full", "exact"]);
+pub const COVERAGE: Setting =
+    Setting::word("coverage", "how much matter a slab holds at a surface", &["full", "exact"]);
 /// The crossing that is shaded.
-pub const HIT: Setting = word("hit", "which of several surfaces in a slab is seen", &["first", "last"]);
+pub const HIT: Setting = Setting::word("hit", "which of several surfaces in a slab is seen", &["first", "last"]);
 /// The rule that separates inside from outside.
-pub const RULE: Setting = word("rule", "what separates inside from outside", &["parity", "winding"]);
+pub const RULE: Setting = Setting::word("rule", "what separates inside from outside", &["parity", "winding"]);
 /// The fate of lists that end inside.
-pub const ODD: Setting = word(
+pub const ODD: Setting = Setting::word(
     "odd",
     "what becomes of a pixel whose ray goes into matter and never comes out",
     &["drop_last", "close_at_end", "error"],
 );
 /// Light beside the picture.
-pub const BORDER: Setting = word("border", "the light beside the picture", &["unoccluded", "clamp"]);
+pub const BORDER: Setting = Setting::word("border", "the light beside the picture", &["unoccluded", "clamp"]);
 /// The projection.
 pub const PROJECTION: Setting =
-    word("projection", "how slabs are seen", &["orthographic", "perspective_world", "perspective_follow"]);
+    Setting::word("projection", "how slabs are seen", &["orthographic", "perspective_world", "perspective_follow"]);
 /// The lights that each light is split into.
-pub const SPLIT: Setting = whole("split", "lights that each light is split into, but not 2", 1, (1, 1024));
+pub const SPLIT: Setting = Setting::whole("split", "lights that each light is split into, but not 2", 1, (1, 1024));
 /// The share of its covariance that they keep.
-pub const RHO: Setting = number("rho", "share of a light's covariance that each of its parts keeps", 0.15, (0.0, 1.0));
+pub const RHO: Setting =
+    Setting::number("rho", "share of a light's covariance that each of its parts keeps", 0.15, (0.0, 1.0));
 /// Light on slopes.
-pub const SLOPES: Setting = word(
+pub const SLOPES: Setting = Setting::word(
     "slopes",
     "what is done about light on opaque slopes, which iterating makes too dark",
     &["none", "compensate"],
 );
 /// Matter with detail between two values.
-pub const DETAIL: Setting = word(
+pub const DETAIL: Setting = Setting::word(
     "detail",
     "how patterns inside of slabs are taken: at a place, or from front to back",
     &["sampled", "integrated"],
 );
 /// Frames that are accumulated.
-pub const FRAMES: Setting = whole(
+pub const FRAMES: Setting = Setting::whole(
     "frames",
     "frames that are averaged, each with the next part of every light; 0 is all parts in one",
     0,
     (0, 1 << 16),
 );
 /// Steps through empty slabs.
-pub const SKIP: Setting = whole("skip", "most steps through a run of empty slabs; 0 is one a slab", 16, (0, 1 << 20));
+pub const SKIP: Setting =
+    Setting::whole("skip", "most steps through a run of empty slabs; 0 is one a slab", 16, (0, 1 << 20));
 /// The numbers that light is kept in.
-pub const PRECISION: Setting = word("precision", "the numbers that light is kept in", &["f32", "f64"]);
+pub const PRECISION: Setting = Setting::word("precision", "the numbers that light is kept in", &["f32", "f64"]);
 /// The lights of the reference.
-pub const SHARP_LIGHTS: Setting = whole("sharp_lights", "sharp lights that stand for each light", 256, (3, 1 << 16));
+pub const SHARP_LIGHTS: Setting =
+    Setting::whole("sharp_lights", "sharp lights that stand for each light", 256, (3, 1 << 16));
 
 /// Everything that the technique is told.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,6 +163,7 @@ impl Chosen {
 mod tests {
     use super::*;
     use crate::program::Domain;
+    use crate::technique::setting::Range;
     use crate::technique::tables::{BuiltIn, KERNELS, POLICIES, SLAB};
 
     /// The levels of an input of a table or one of its functions.

@@ -26,7 +26,15 @@ fn shader(gpu: &Gpu, label: &str, skeleton: &str) -> Result<(Module, Compute), F
     let functions = [EDGE_INTEGRAL.function("term")?, EDGE_INTEGRAL.function("small")?];
     let emitted = |program: &&'static Program| Ok(emit::wgsl(&Plan::proved(program, Shape::Ladder)?) + "\n");
     let modules = tables.iter().chain(&functions).map(emitted).collect::<Result<String, Failure>>()?;
-    let module = Module::new(gpu, label, wgsl_text(label, &(modules + skeleton))?)?;
+    compiled(gpu, label, &(modules + skeleton))
+}
+
+/// A shader by its whole text, with one entry point and the rounds of loops that the device grants.
+///
+/// # Errors
+/// When the device refuses it.
+pub(super) fn compiled(gpu: &Gpu, label: &str, text: &str) -> Result<(Module, Compute), Failure> {
+    let module = Module::new(gpu, label, wgsl_text(label, text)?)?;
     // Eight threads side by side, each on its own way, share the rounds that Mesa's rasteriser grants.
     let rounds = if gpu.is_software() { 8_000.0 } else { f64::from(1 << 20) };
     let compute = module.compute(gpu, module.only_compute()?, &[("MOST_ROUNDS", rounds)])?;

@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use super::super::entry::FACTOR;
 use super::super::lit::Lit;
 use super::super::picture::fractions;
 #[cfg(feature = "gpu")]
 use super::gpu::Searching;
 use super::picture::{Coherence, Picture, Pixels};
 use super::settings::{AGAINST, BOUNDARY_RAYS, BULGES, COHERENCE, GAP, SPACING, TOLERANCE};
-use super::{Options, Rule};
+use super::{Options, Rule, TABLES};
 use crate::diag::Failure;
 #[cfg(feature = "gpu")]
 use crate::gpu::timing::Stopwatch;
@@ -20,12 +19,9 @@ use crate::scene::surfaces::Surfaces;
 use crate::technique::Executor;
 #[cfg(feature = "gpu")]
 use crate::technique::prepared::{Detail, Pass};
-use crate::technique::rendered::{LIGHT, NONE};
+use crate::technique::rendered::NONE;
 use crate::technique::setting::SEED;
-use crate::technique::tables::{
-    BuiltIn, CLOSEST_POINT_SETUP, CLOSEST_POINT_START, CLOSEST_POINT_STEP, EDGE_INTEGRAL, QUAD_DIAGONAL, SEARCH_PLAN,
-    TRIANGLE_CONFIGURATION, TRIANGLE_RAYS, TRIANGLE_REGION,
-};
+use crate::technique::tables::BuiltIn;
 use crate::technique::{Ability, Frame, Prepared, Progress, Rendered, Samples, Setting, Technique};
 
 /// Layer of the configuration of the first light's first triangle.
@@ -36,18 +32,6 @@ pub const TESTS: &str = "tests";
 pub const FRACTION: &str = "fraction";
 /// Layer of the error of that share.
 pub const ERROR: &str = "error";
-
-static TABLES: [&BuiltIn; 9] = [
-    &SEARCH_PLAN,
-    &QUAD_DIAGONAL,
-    &TRIANGLE_CONFIGURATION,
-    &CLOSEST_POINT_SETUP,
-    &CLOSEST_POINT_START,
-    &CLOSEST_POINT_STEP,
-    &TRIANGLE_REGION,
-    &TRIANGLE_RAYS,
-    &EDGE_INTEGRAL,
-];
 
 /// Area lights by search, as a technique.
 #[derive(Debug)]
@@ -201,11 +185,9 @@ impl<'s> Searched<'s> {
 impl<'s> Prepared<'s> for Searched<'s> {
     fn render(&mut self, progress: &Progress<'_>) -> Result<Rendered, Failure> {
         let pixels = self.pixels(progress)?;
-        let sent = pixels.received.iter().enumerate().map(|(pixel, received)| self.lit.sent(pixel, *received));
-        let factors = pixels.received.iter().map(|received| received.factor as f32).collect();
-        let rendered = Rendered::default()
-            .with(LIGHT, Samples::Colours(sent.map(|light| light.as_vec3().to_array()).collect()))
-            .with(FACTOR, Samples::Numbers(factors))
+        let rendered = self
+            .lit
+            .rendered(&pixels.received)
             .with(
                 CONFIGURATION,
                 Samples::Counts(pixels.configuration.iter().map(|found| found.unwrap_or(NONE)).collect()),

@@ -7,22 +7,21 @@ use std::time::Duration;
 
 use glam::{DVec3, UVec2, Vec3};
 
+use super::super::gpu::compiled;
 use super::super::received::Received;
+use super::TABLES;
 use super::picture::{Picture, Pixels};
 use super::rows::{Casters, FrameRow, SurfaceRow, light_rows};
 use super::{Options, Rule};
 use crate::diag::Failure;
-use crate::emit::{self, wgsl_text};
+use crate::emit;
 use crate::gpu::pass::{Bound, Compute, Module, Resources, Work};
 use crate::gpu::timing::Stopwatch;
 use crate::gpu::{Buffer, Gpu, laid_out};
 use crate::plan::{Plan, Shape};
 use crate::program::Program;
 use crate::skeleton;
-use crate::technique::tables::{
-    CLIP_STEP, CLOSEST_POINT_SETUP, CLOSEST_POINT_START, CLOSEST_POINT_STEP, EDGE_INTEGRAL, PCG, QUAD_DIAGONAL,
-    SEARCH_PLAN, TRIANGLE_CONFIGURATION, TRIANGLE_RAYS, TRIANGLE_REGION,
-};
+use crate::technique::tables::{CLIP_STEP, EDGE_INTEGRAL, PCG};
 
 /// Bytes of a `Found` of the skeleton.
 const FOUND: u64 = 48;
@@ -48,21 +47,11 @@ pub(super) struct Placed {
 
 /// The text of the shader: the modules of the tables, and the skeleton around them.
 fn text() -> Result<String, Failure> {
-    let tables = [
-        &SEARCH_PLAN,
-        &QUAD_DIAGONAL,
-        &TRIANGLE_CONFIGURATION,
-        &CLOSEST_POINT_SETUP,
-        &CLOSEST_POINT_START,
-        &CLOSEST_POINT_STEP,
-        &TRIANGLE_REGION,
-        &TRIANGLE_RAYS,
-        &CLIP_STEP,
-    ];
+    let tables = TABLES.into_iter().filter(|table| table.name != EDGE_INTEGRAL.name).chain([&CLIP_STEP]);
     let functions =
         [(&EDGE_INTEGRAL, "term"), (&EDGE_INTEGRAL, "small"), (&PCG, "hash"), (&PCG, "unit"), (&PCG, "jitter")];
     let module = |program: &'static Program| Ok(emit::wgsl(&Plan::proved(program, Shape::Ladder)?) + "\n");
-    let tables = tables.into_iter().map(|table| module(table.program()?));
+    let tables = tables.map(|table| module(table.program()?));
     let functions = functions.into_iter().map(|(table, name)| module(table.function(name)?));
     Ok(tables.chain(functions).collect::<Result<String, Failure>>()? + skeleton::SEARCH)
 }
@@ -73,10 +62,7 @@ impl<'g> Searching<'g> {
     /// # Errors
     /// When the device refuses the shader.
     pub(super) fn new(gpu: &'g Gpu) -> Result<Self, Failure> {
-        let module = Module::new(gpu, "area_search", wgsl_text("area_search", &text()?)?)?;
-        // Eight threads side by side, each on its own way, share the rounds that Mesa's rasteriser grants.
-        let rounds = if gpu.is_software() { 8_000.0 } else { f64::from(1 << 20) };
-        let compute = module.compute(gpu, module.only_compute()?, &[("MOST_ROUNDS", rounds)])?;
+        let (module, compute) = compiled(gpu, "area_search", &text()?)?;
         Ok(Self { gpu, module, compute })
     }
 

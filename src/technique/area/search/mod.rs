@@ -36,12 +36,29 @@ use glam::DVec3;
 
 use super::sampling::Stream;
 use crate::diag::Failure;
+use crate::technique::tables::{
+    BuiltIn, CLOSEST_POINT_SETUP, CLOSEST_POINT_START, CLOSEST_POINT_STEP, EDGE_INTEGRAL, QUAD_DIAGONAL, SEARCH_PLAN,
+    TRIANGLE_CONFIGURATION, TRIANGLE_RAYS, TRIANGLE_REGION,
+};
 pub use edge::Edge;
 pub use entry::{CONFIGURATION, DISCONTINUITY, ERROR, FRACTION, TESTS};
 pub use options::{Options, Rule};
 pub use settings::{AGAINST, BOUNDARY_RAYS, BULGES, COHERENCE, GAP, SPACING, TOLERANCE};
 use tables::Tables;
 pub use triangle::Region;
+
+/// The tables of the search.
+static TABLES: [&BuiltIn; 9] = [
+    &SEARCH_PLAN,
+    &QUAD_DIAGONAL,
+    &TRIANGLE_CONFIGURATION,
+    &CLOSEST_POINT_SETUP,
+    &CLOSEST_POINT_START,
+    &CLOSEST_POINT_STEP,
+    &TRIANGLE_REGION,
+    &TRIANGLE_RAYS,
+    &EDGE_INTEGRAL,
+];
 
 /// The search with its tables.
 #[derive(Debug)]

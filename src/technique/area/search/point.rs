@@ -74,7 +74,8 @@ impl<T: Scalar> Finder<T> {
         let mut batch = Batch::default();
         for (number, query) in queries {
             let scene = self.peeler.seen(&query);
-            let mut visibility = |place| scene.as_ref().is_some_and(|scene| is_visible(&query, scene, place));
+            let middle = query.light.iter().sum::<DVec3>() / query.light.len() as f64;
+            let mut visibility = |place| scene.as_ref().is_some_and(|scene| is_visible(middle, scene, place));
             let mut stream = Stream::new([number, 0], 0, seed);
             self.add(&mut batch, &query, scene.as_ref(), None, (&mut stream, &mut visibility));
         }
@@ -166,13 +167,12 @@ fn loops<T: Scalar>(scene: &Seen<T>, regions: &[Region]) -> Vec<Vec<Vector<T>>> 
     regions.iter().flat_map(|region| &region.loops).map(of).collect()
 }
 
-/// Returns whether nothing hides a place on a light.
+/// Returns whether nothing hides a place on a light with this middle.
 ///
 /// On a border of the light it is what lies just within that counts; and as cones are closed there is no seam between two
 /// that share an edge.
-fn is_visible<T: Scalar>(query: &Query<'_>, scene: &Seen<T>, place: DVec3) -> bool {
+fn is_visible<T: Scalar>(middle: DVec3, scene: &Seen<T>, place: DVec3) -> bool {
     let Some(cones) = &scene.cones else { return false };
-    let middle = query.light.iter().sum::<DVec3>() / query.light.len() as f64;
     let towards = scene.from.see::<T>(place + (middle - place) * (1e-2 * T::NOISE.sqrt()));
     let zero = T::from_f64(0.0);
     !cones.iter().any(|cone| cone.planes.iter().all(|plane| dot(*plane, towards) >= zero))

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use encase::ShaderType;
-use glam::{DVec3, UVec2, Vec3};
+use glam::{UVec2, Vec3};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::builder::build_bvh2_from_tris;
 
@@ -114,15 +114,8 @@ const CLOSE: f64 = 2e-6;
 
 impl Casters {
     pub(super) fn new(rays: &Rays) -> Self {
-        let single = |place: DVec3| glam::Vec3A::from(place.as_vec3());
-        let triangles: Vec<obvhs::triangle::Triangle> = rays
-            .traced()
-            .map(|triangle| {
-                let [v0, v1, v2] = triangle.corners.map(single);
-                obvhs::triangle::Triangle { v0, v1, v2 }
-            })
-            .collect();
-        let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
+        let triangles = rays.faces();
+        let bvh = build_bvh2_from_tris(triangles, BvhBuildParams::fast_build(), &mut Duration::default());
         let corner = |place: glam::Vec3A| Vec3::from(place);
         let mut faces: Vec<FaceRow> = bvh
             .primitive_indices

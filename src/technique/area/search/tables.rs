@@ -1,6 +1,6 @@
 //! The tables of the search, as the search asks them.
 
-use super::super::tabulated::Tabulated;
+use super::super::tabulated::{Tabulated, lists};
 use super::options::Rule;
 use crate::diag::{Diagnostic, Failure, codes};
 use crate::eval::Interpreter;
@@ -194,13 +194,13 @@ impl Tables {
         let levels: Vec<usize> = state.into_iter().chain(found.map(usize::from)).collect();
         let (loops, triangles) = self.regions.at(&levels).split_at(self.loops);
         let triangles = triangles[1..=usize::from(triangles[0])].chunks_exact(3);
-        (lists(loops), triangles.map(|three| [0, 1, 2].map(|corner| usize::from(three[corner]))).collect())
+        (lists(loops, LOOPS), triangles.map(|three| [0, 1, 2].map(|corner| usize::from(three[corner]))).collect())
     }
 
     /// The visible loops with curves of some points (`triangle_rays`).
     pub(super) fn loops(&self, state: [usize; 3], points: usize) -> Vec<Vec<usize>> {
         let levels: Vec<usize> = state.into_iter().chain([points]).collect();
-        lists(self.rays.at(&levels))
+        lists(self.rays.at(&levels), LOOPS)
     }
 
     /// The search for a closest point, in the half of a triangle near v1, or in the other one (`closest_point_setup`).
@@ -248,13 +248,6 @@ impl Tables {
         };
         Some((result[0] as usize, across))
     }
-}
-
-/// Lists of a result: their number, then each with its length, filled up to the same number of items.
-fn lists(result: &[u8]) -> Vec<Vec<usize>> {
-    let Some((count, rest)) = result.split_first() else { return Vec::new() };
-    let items = |list: &[u8]| list[1..=usize::from(list[0])].iter().map(|item| usize::from(*item)).collect();
-    rest.chunks(rest.len() / LOOPS).take(usize::from(*count)).map(items).collect()
 }
 
 /// The components of a record's first field.

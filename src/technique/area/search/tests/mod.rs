@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::super::occluder::Occluder;
 use super::super::point::{Peeler, Question};
 use super::point::{Finder, Found};
-use super::{Options, Rule};
+use super::{Options, Rule, Seen};
 
 fn question(light: &[[f64; 3]], occluders: Vec<Occluder>) -> Question {
     Question {
@@ -30,6 +30,15 @@ fn find(options: Options, questions: &[Question], seed: u32) -> Vec<Found> {
     let mut finder = Finder::<f64>::new(options).unwrap_or_else(|e| panic!("{e}"));
     let queries = questions.iter().enumerate().map(|(index, question)| (index as u32, question.query()));
     finder.find(queries, seed).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The visible share of a light in a plane of constant z.
+fn share(seen: &Seen, light: &[DVec3]) -> f64 {
+    let area = |corners: &[DVec3]| {
+        let sides = corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
+        0.5 * sides.fold(DVec3::ZERO, |sum, side| sum + side).z
+    };
+    seen.regions.iter().flat_map(|region| &region.loops).map(|corners| area(corners)).sum::<f64>() / area(light)
 }
 
 fn names(found: &Found) -> Vec<&'static str> {

@@ -4,7 +4,8 @@
 use glam::DVec3;
 
 use super::super::super::sampling::Stream;
-use super::super::{Edge, Options, Rule, Searcher, Seen};
+use super::super::{Edge, Options, Rule, Searcher};
+use super::share;
 
 const LIGHT: [DVec3; 3] = [DVec3::new(-1.5, 1.0, 5.0), DVec3::new(1.5, 1.0, 5.0), DVec3::new(0.0, 3.5, 5.0)];
 const COLUMNS: u32 = 96;
@@ -58,16 +59,6 @@ fn is_open(from: DVec3, to: DVec3) -> bool {
         && !meets_cone(from, to, DVec3::new(2.2, 0.0, 1.5), 1.5, 0.6)
 }
 
-fn area(corners: &[DVec3]) -> f64 {
-    let sides = corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
-    0.5 * sides.fold(DVec3::ZERO, |sum, side| sum + side).z
-}
-
-fn fraction(seen: &Seen) -> f64 {
-    let all = seen.regions.iter().flat_map(|region| &region.loops);
-    all.map(|corners| area(corners)).sum::<f64>() / area(&LIGHT)
-}
-
 /// The visible share of the light, from the middles of as many triangles as `sides` squared.
 fn sampled(from: DVec3, sides: u32) -> f64 {
     let [a, b, c] = LIGHT;
@@ -110,7 +101,7 @@ fn run(options: Options, frame: u32, truth: &[f64]) -> Summary {
             let from = receiver(column, row);
             let mut stream = Stream::new([column, row], 0, frame);
             let seen = searcher.search(&LIGHT, neighbour.as_deref(), &mut stream, &mut |to| is_open(from, to));
-            let (truth, found) = (truth[(row * COLUMNS + column) as usize], fraction(&seen));
+            let (truth, found) = (truth[(row * COLUMNS + column) as usize], share(&seen, &LIGHT));
             summary.tests += seen.tests as f64 / f64::from(COLUMNS * ROWS);
             summary.most_tests = summary.most_tests.max(seen.tests);
             if truth > 0.0 && truth < 1.0 {

@@ -86,7 +86,7 @@ fn sample(configuration: &str, rotation: usize, stream: &mut Stream) -> Sample {
         from.lerp(to, along + (1.0 - along) * between(0.05, 0.6))
     };
     let v = |points: &[DVec2; label::COUNT], canonical| at(points, label::V, canonical);
-    let f = [0.5; 1][0];
+    let f = 0.5;
     match configuration {
         "C011" => {
             let chord = [at(&points, label::A, 0), at(&points, label::A, 2)];

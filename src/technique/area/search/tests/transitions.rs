@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::super::super::sampling::Stream;
 use super::super::{Options, Searcher, Seen};
+use super::share;
 
 const TRIANGLE: [DVec3; 3] = [DVec3::new(0.0, 0.0, 0.0), DVec3::new(1.0, 0.1, 0.0), DVec3::new(0.2, 1.0, 0.0)];
 
@@ -25,14 +26,6 @@ impl Ellipse {
 
 fn search(searcher: &mut Searcher, ellipse: &Ellipse, number: u32, seed: u32) -> Seen {
     searcher.search(&TRIANGLE, None, &mut Stream::new([number, 0], 0, seed), &mut |place| !ellipse.hides(place))
-}
-
-fn fraction(seen: &Seen) -> f64 {
-    let area = |corners: &[DVec3]| {
-        let sides = corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
-        0.5 * sides.fold(DVec3::ZERO, |sum, side| sum + side).z
-    };
-    seen.regions.iter().flat_map(|region| &region.loops).map(|corners| area(corners)).sum::<f64>() / area(&TRIANGLE)
 }
 
 #[test]
@@ -86,10 +79,10 @@ fn the_mean_of_what_is_found_does_not_jump_from_one_configuration_to_the_next() 
         let mut searcher = Searcher::new(Options { rays, ..Options::default() }).unwrap_or_else(|e| panic!("{e}"));
         let mut means = Vec::new();
         for step in 0..160 {
-            let share = f64::from(step) / 159.0;
-            let centre = DVec2::new(-0.5, 0.3).lerp(DVec2::new(1.2, 0.6), share);
+            let along = f64::from(step) / 159.0;
+            let centre = DVec2::new(-0.5, 0.3).lerp(DVec2::new(1.2, 0.6), along);
             let ellipse = Ellipse { centre, half_axes: DVec2::new(0.35, 0.25), angle: 0.0 };
-            let found = |seed| fraction(&search(&mut searcher, &ellipse, step, seed));
+            let found = |seed| share(&search(&mut searcher, &ellipse, step, seed), &TRIANGLE);
             means.push((0..SEEDS).map(found).sum::<f64>() / f64::from(SEEDS));
         }
         let largest = means.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
